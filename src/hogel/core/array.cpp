@@ -37,8 +37,7 @@ core::FreedBlocks& freed_blocks() {
 
 constexpr std::size_t large = std::size_t{256} << 20;
 
-// Touches the pages of a large block, so that the system clears them: this takes seconds for gigabytes. Checks for a
-// stop request regularly.
+// Makes the system clear the pages of a large block, which takes seconds for gigabytes. Checks for stop requests.
 void touch(std::byte* memory, std::size_t bytes) {
     constexpr std::size_t page = 4096, bytes_between_checks = std::size_t{16} << 20;
     for (std::size_t offset = 0; offset < bytes; offset += page) {

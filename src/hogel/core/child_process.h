@@ -21,7 +21,7 @@ struct ChildLimits {
     bool serves = false;
 };
 
-/// Thrown if a child process ended before it sent the expected data. what() is the predicate of a sentence: "crashed
+/// Thrown if a child process ended before it sent the expected data. what() is a predicate: "crashed
 /// (segmentation fault)".
 class ChildFailure : public std::exception {
   public:
@@ -47,16 +47,15 @@ class ChildFailure : public std::exception {
 /// library with threads of its own. A child that waits for a lock uses no processor time and is ended as `stuck`.
 class ChildProcess {
   public:
-    /// Calls work(pipe) in the child, which ends when `work` returns. The pipe is bidirectional. Throws Error(internal)
-    /// if no process can be started.
+    /// Calls work(pipe) in the child, then ends the child. The pipe is bidirectional. Throws Error(internal) on
+    /// failure.
     ChildProcess(const ChildLimits& limits, const std::function<void(int pipe)>& work);
     /// Kills the child if it still runs.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Reads bytes that the child writes. Throws ChildFailure if the child ended before, Error(cancelled) on a stop
-    /// request.
+    /// Reads bytes from the child. Throws ChildFailure if the child has ended, Error(cancelled) on a stop request.
     void read(void* to, std::size_t bytes);
     /// Sends bytes to the child. Throws as read() does. The child must read them at once, unless they are few.
     void send(const void* from, std::size_t bytes);

@@ -59,8 +59,7 @@ std::byte* map(std::size_t bytes) {
 
 FreedBlocks::~FreedBlocks() { give_back(overflow(0)); }
 
-// Joins kept pages and new pages into one block. Returns null if no pages are available; the kept pages are then
-// unmapped.
+// Joins kept pages and new pages into one block. On failure unmaps the kept pages and returns null.
 std::byte* FreedBlocks::joined(const std::vector<Pages>& kept_pages, std::size_t bytes) {
     if (kept_pages.size() == 1 && kept_pages.front().bytes == bytes) return kept_pages.front().first;
     std::byte* const memory = map(bytes);
@@ -88,8 +87,7 @@ void FreedBlocks::give_back(const Surplus& surplus) {
     for (const Pages& pages : surplus.pages) unmap(pages.first, pages.bytes);
 }
 
-// Returns the smallest sufficient kept block, most recently used first, or null if more than a fraction `idle` of it
-// would be unused.
+// Returns the smallest sufficient kept block, most recently used first; null if more than a fraction `idle` is unused.
 void* FreedBlocks::take_block(std::size_t bytes, double idle) {
     const auto smallest = blocks_.lower_bound(bytes);
     if (smallest == blocks_.end() ||

@@ -11,8 +11,7 @@ namespace hogel::core {
 inline std::uint16_t half_of(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const auto size = static_cast<std::int32_t>(bits & 0x7fffffffu);
-    // Normal halves: changes the exponent bias from 127 to 15 and rounds off 13 bits. A carry into the exponent is
-    // correct.
+    // Normal halves: rebiases the exponent from 127 to 15 and rounds off 13 bits. A carry into the exponent is correct.
     std::int32_t normal = (size + 0xfff + ((size >> 13) & 1) - 0x38000000) >> 13;
     normal = normal > 0x7c00 ? 0x7c00 : normal;
     // Subnormal halves are multiples of 2^-24, the last bit of 0.5: the addition rounds.

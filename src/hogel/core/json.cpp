@@ -37,8 +37,7 @@ class JsonText {
     const char* position_;
 };
 
-/// Builds a document from parser events. The parser's callbacks could reject values too, but search the whole enclosing
-/// array after each element.
+/// Builds a document from parser events. The parser's own callbacks search the enclosing array after each element.
 class JsonBuilder final : public nlohmann::json_sax<Json> {
   public:
     explicit JsonBuilder(const std::function<void(const std::string&)>& reject) : reject_(reject) {}

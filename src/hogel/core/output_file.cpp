@@ -30,8 +30,7 @@ namespace {
 
 std::string message(int error) { return std::generic_category().message(error); }
 
-// Locks one byte far beyond the end of a file, which no other lock covers. Returns whether that succeeded. The lock
-// ends with the descriptor.
+// Locks one byte far beyond the end of a file, where no other lock is, until the descriptor is closed. Returns success.
 bool lock(int descriptor) {
     struct flock range {};
     range.l_type = F_WRLCK;
@@ -41,8 +40,7 @@ bool lock(int descriptor) {
     return ::fcntl(descriptor, F_OFD_SETLK, &range) == 0;
 }
 
-// Opens and locks an existing temporary file or folder. Returns its descriptor, or -1 if another process holds the
-// lock.
+// Opens and locks an existing temporary file or folder. Returns -1 if another process holds the lock.
 int open_locked(const std::filesystem::path& temporary) {
     std::error_code ignored;
     const bool is_folder = std::filesystem::is_directory(std::filesystem::symlink_status(temporary, ignored));

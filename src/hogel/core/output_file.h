@@ -9,9 +9,8 @@
 namespace hogel::core {
 
 /// A file that appears under its name only when it is complete. Writes to a temporary file in the folder of the target;
-/// commit() renames the temporary, the destructor removes it. If the target is a symbolic link, replaces the linked
-/// file. The temporary of a killed process is removed by the next process that writes the same file: the kernel has
-/// then dropped its lock.
+/// commit() renames the temporary, the destructor removes it. Follows symbolic links. The next process that writes the
+/// same file removes the temporary of a killed process, because the kernel has dropped its lock.
 class OutputFile {
   public:
     /// Fate of a file without commit(): removed, or kept under the target's name with ".part" appended.

@@ -5,8 +5,7 @@
 
 #include "hogel/resources.h"
 
-/// Processor seconds per operation for the cost estimates of plans. Measured on an AMD EPYC (Zen 5) with g++ 12 in
-/// November 2026.
+/// Processor seconds per operation, for cost estimates. Measured on an AMD EPYC (Zen 5) with g++ 12 in November 2026.
 namespace hogel::core::rates {
 
 // On two cores, 2026-11-22 (docs/performance.md): a ray of `epi`, and the increment per million triangles; a ray that
@@ -34,8 +33,7 @@ inline constexpr double amplitude = 1e-9, wave = 0.25e-9, wave_and_eye = 0.15e-9
 // A sample of a pupil band, per look; a sample of a film, per look and photograph; for speckle-free photographs, a
 // product of a hogel coefficient and a PSF sample.
 inline constexpr double band_sample = 15e-9, film_sample = 10e-9, product = 0.04e-9;
-// Sets of lines behind a vertical diffuser, most of them dark (decision 0088): a sample of the direction sines, and a
-// sample of the film.
+// Mostly dark sets of lines behind a vertical diffuser (decision 0088): a sample of the direction sines; of the film.
 inline constexpr double sine_of_lines = 1.3e-9, film_sample_of_lines = 0.9e-9;
 
 /// Returns the wall time on all threads, seconds.

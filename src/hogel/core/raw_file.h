@@ -26,8 +26,7 @@ class RawFile {
     void read(std::uint64_t offset, void* to, std::size_t bytes) const;
     /// Throws Error(cannot_write).
     void write(std::uint64_t offset, const void* from, std::size_t bytes);
-    /// Extends the file to at least `bytes`, and reserves disk space if the file system supports it. Throws
-    /// Error(cannot_write).
+    /// Extends the file to at least `bytes`; reserves disk space if possible. Throws Error(cannot_write).
     void reserve(std::uint64_t bytes);
     /// Sets the length of the file; added bytes are zero and take no disk space. Throws Error(cannot_write).
     void resize(std::uint64_t bytes);

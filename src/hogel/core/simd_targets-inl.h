@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles the including source once for every SIMD target. Highway includes the source again for each target, by the
-// name HWY_TARGET_INCLUDE, which cmake/HogelModule.cmake defines for all *_simd.cpp. No include guard: each target
-// reads this header.
+// Compiles the including source once for every SIMD target: Highway includes it again by the name HWY_TARGET_INCLUDE,
+// which cmake/HogelModule.cmake defines for all *_simd.cpp. No include guard: each target reads this header.
 #include <hwy/foreach_target.h>
 // Must be included after foreach_target.h:
 #include <hwy/highway.h>

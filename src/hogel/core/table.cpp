@@ -11,8 +11,7 @@
 namespace hogel {
 namespace {
 
-// Returns the number of insertions, deletions, replacements and swaps of adjacent letters that turn a into b (optimal
-// string alignment).
+// Returns the optimal string alignment distance: insertions, deletions, replacements and swaps that turn a into b.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;

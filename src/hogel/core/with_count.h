@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops with a compile-time number of sums, for files that are compiled once per SIMD target. Include it after
-// hwy/highway.h.
+// Loops with a compile-time number of sums, compiled once per SIMD target. Include it after hwy/highway.h.
 #if defined(HOGEL_CORE_WITH_COUNT) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_CORE_WITH_COUNT
 #undef HOGEL_CORE_WITH_COUNT

@@ -36,8 +36,7 @@ double median_above(std::vector<float> values, float limit) {
     return *middle;
 }
 
-// Returns whether a pixel has the radiance of the background, within the compression error. A black background does not
-// count.
+// Returns whether a pixel shows the background, within the compression error. A black background does not count.
 bool is_background(const Image& image, std::size_t x, std::size_t y, Rgb background) {
     const std::array<float, 3> expected{background.r, background.g, background.b};
     const float tolerance = 0.02f * std::max({background.r, background.g, background.b});

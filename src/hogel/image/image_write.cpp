@@ -32,7 +32,6 @@ void check_writable(const Image& image, double exposure, const std::string& name
                     fmt::format("the exposure is {}, but must be positive and finite", exposure));
 }
 
-// Returns the 8-bit display values of a picture.
 Array<std::uint8_t, 3> display_values(const Image& image, double exposure) {
     Array<std::uint8_t, 3> display(image.pixels.shape());
     work::parallel_for(image.height(), [&](std::size_t y) {

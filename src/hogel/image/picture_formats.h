@@ -26,8 +26,7 @@ const std::vector<PictureFormat>& picture_formats();
 /// Returns the format for the extension of a file name, case-insensitive, or null if it is unknown.
 const PictureFormat* format_by_extension(const std::filesystem::path& path);
 
-/// Returns the extensions of the formats for which a member is true, for error messages: ".png, .exr or .tif";
-/// "nothing" if there are none.
+/// Returns the extensions of formats with a true member, for messages: ".png, .exr or .tif"; "nothing" for none.
 std::string list_extensions(bool PictureFormat::*member);
 
 /// Throws Error(not_built_in) for a file `name` of a format that is not built in. The message names the built-in

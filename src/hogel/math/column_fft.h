@@ -8,10 +8,9 @@
 
 namespace hogel::math {
 
-/// Fourier transforms of columns with a power-of-two length. Adjacent columns are lanes of a vector: lanes are shuffled
-/// only to separate interleaved real and imaginary parts. Decimation in frequency with radix 4, and a last step of
-/// radix 2 if the length is not a power of four, on a copy of sixteen columns that fits into the first-level cache. Not
-/// normalised, like Fft2.
+/// Fourier transforms of columns with a power-of-two length. Adjacent columns are lanes of a vector; shuffles only
+/// separate interleaved real and imaginary parts. Decimation in frequency with radix 4, and a last step of radix 2 if
+/// needed, on a copy of sixteen columns that fits into the first-level cache. Not normalised, like Fft2.
 class ColumnFft {
   public:
     static constexpr std::size_t shortest = 8;
@@ -29,8 +28,8 @@ class ColumnFft {
     void transform(bool forward, const std::complex<float>* from, std::size_t from_row, std::complex<float>* to,
                    std::size_t to_row, std::size_t columns) const;
 
-    /// Sums with e^{+2πi jm/n} along sixteen columns in place, in split layout [row][part][column]. `columns` must be
-    /// aligned to a cache line.
+    /// Sums with e^{+2πi jm/n} along sixteen columns in place, in split layout [row][part][column], aligned to a cache
+    /// line.
     void backward_split(float* columns) const;
 
     /// Sums with e^{+2πi jm/n} from [column/16][row][part][column mod 16] to interleaved results as of transform(). If

@@ -177,8 +177,8 @@ ColumnFft::ColumnFft(std::size_t length) : plan_{length, {0}, {}} {
                 plan_.factors[0].push_back(factor_of(cycles));
                 plan_.factors[1].push_back(factor_of(-cycles));
             }
-    // A step orders frequencies by their remainder modulo its radix. Backwards from the last step: frequency f of part
-    // k is frequency k + radix · f of all parts.
+    // Each step orders frequencies by their remainder modulo its radix: frequency f of part k is frequency k + radix ·
+    // f.
     std::size_t parts = 1;
     for (std::size_t step = rest;; step = 4) {
         std::vector<std::uint32_t> order;

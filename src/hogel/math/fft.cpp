@@ -16,14 +16,12 @@
 namespace hogel::math {
 namespace {
 
-// Arrays of at least this size are transformed line by line on all threads. Smaller arrays usually come in large
-// numbers, each on one thread.
+// Arrays of at least this size use all threads. Smaller arrays usually come in large numbers, each on one thread.
 constexpr std::size_t large_array = std::size_t{1} << 16;
 // Maximum size at which ColumnFft on one thread is fastest, if it supports the columns.
 constexpr std::size_t max_by_columns = std::size_t{1} << 18;
 
-// Calls transform(first, count) for blocks of adjacent lines, on all threads. A task covers several blocks of short
-// lines.
+// Calls transform(first, count) for blocks of adjacent lines, on all threads. A task has several blocks of short lines.
 template <class Transform>
 void for_blocks(std::size_t lines, std::size_t length, const Transform& transform) {
     constexpr std::size_t batch_lines = LineEngine::batch_lines, task_values = 16384;

@@ -10,8 +10,8 @@
 namespace hogel::math {
 
 /// Discrete Fourier transforms with a plan per size. Thread-safe. Not normalised: forward sums with e^{-2πi jm/n},
-/// backward with e^{+2πi jm/n}. A plan depends only on the size, never on timings: equal input gives equal bytes in
-/// every run and for any number of threads.
+/// backward with e^{+2πi jm/n}. A plan depends only on the size: equal input gives equal bytes for any number of
+/// threads.
 
 /// Transform of one line.
 class Fft1 {

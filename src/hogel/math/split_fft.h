@@ -22,8 +22,7 @@ class SplitFft {
     SplitFft& operator=(SplitFft&&) noexcept;
 
     std::size_t size() const;
-    /// Sums with e^{-2πi jm/n}. With exchanged parts (imaginary before real) in input and output, sums with e^{+2πi
-    /// jm/n}.
+    /// Sums with e^{-2πi jm/n}; with imaginary before real parts in input and output, sums with e^{+2πi jm/n}.
     /// @param lines  aligned to a cache line
     void transform(float* lines) const;
     /// Returns the position of a frequency in the result.

@@ -13,7 +13,6 @@
 namespace hogel::optics {
 namespace {
 
-// Multiplies every sample by factor(x, y).
 template <class Factor>
 void multiply_everywhere(Wave& wave, const Factor& factor) {
     const Grid& plane = wave.grid().plane;
@@ -69,8 +68,7 @@ void thin_lens(Wave& wave, double center_x, double center_y, double diameter, do
                     fmt::format("the focal length of a lens is {} m, but must be finite and not zero", focal_length));
     const double wavelength = wave.grid().wavelength;
     const double pitch = std::max(wave.grid().plane.pitch_x, wave.grid().plane.pitch_y);
-    // At a distance a from the centre the phase has a frequency of a/(λl) cycles per metre. Samples represent at most
-    // half a cycle per pitch.
+    // At a distance a from the centre the phase has a frequency of a/(λl); samples represent half a cycle per pitch.
     const double max_diameter = wavelength * std::abs(focal_length) / pitch;
     if (diameter > max_diameter)
         throw Error(

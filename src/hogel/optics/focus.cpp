@@ -65,8 +65,8 @@ class Parts {
     std::vector<std::deque<PlaneWaves>> parts_;
 };
 
-// Returns the centre of an extremum: the mean depth, weighted by the height above half the prominence. Computes more
-// depths if few are in this range.
+// Returns the mean depth of an extremum, weighted by the height above half its prominence. Computes more depths if
+// needed.
 double middle_of(const Parts& parts, const FocusSearch& search, const Extremum& extremum) {
     constexpr std::size_t min_depths = 12, refined_depths = 25;
     const std::size_t begin = extremum.begin == 0 ? 0 : extremum.begin - 1,

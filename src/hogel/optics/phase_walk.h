@@ -20,9 +20,8 @@ std::complex<T> times(std::complex<T> a, std::complex<T> b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
-/// Calls emit(i, e^{2πi cycles(i)}) for i = 0 … count − 1. Over any 32 steps cycles(step) must equal a parabola to far
-/// below a thousandth of a cycle. It is evaluated at the ends and the middle of each 32 steps, and continued by
-/// differences.
+/// Calls emit(i, e^{2πi cycles(i)}) for i = 0 … count − 1. Evaluates cycles() at the ends and the middle of every 32
+/// steps, and continues by differences: over 32 steps it must equal a parabola to far below a thousandth of a cycle.
 template <class Cycles, class Emit>
 void walk_phase(std::size_t count, const Cycles& cycles, const Emit& emit) {
     constexpr std::size_t segment = 32;

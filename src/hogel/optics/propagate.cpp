@@ -21,7 +21,6 @@ double fade_weight(double distance, double reach, double fade) {
     return c * c;
 }
 
-// The directions of one row of a spectrum.
 class DirectionRow {
   public:
     DirectionRow(const Spectrum& spectrum, const PropagationOptions& options, double row)

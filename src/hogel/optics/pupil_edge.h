@@ -13,8 +13,8 @@ struct SpreadWindow {
     double stop = 0;  ///< and is zero beyond this distance
     double spot = 0;  ///< radius of the geometric PSF out of focus
 
-    /// The support covers the whole hologram, but at most 128 resolution cells from the rim of the geometric PSF; 0.16
-    /// % of the light falls beyond.
+    /// The support covers the hologram, but at most 128 resolution cells from the rim of the geometric PSF; 0.16 % of
+    /// the light falls beyond.
     /// @param span_x, span_y  extent of the hologram, sines
     /// @param blur            diameter of the geometric PSF, sines
     /// @param cell            resolution cell λ/A, sines

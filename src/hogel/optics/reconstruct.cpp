@@ -33,7 +33,6 @@ double y_of(const Grid& plane, std::size_t row) {
     return plane.center_y + (static_cast<double>(plane.height) / 2 - static_cast<double>(row) - 0.5) * plane.pitch_y;
 }
 
-// Multiplies each sample by e^{i phase(x, y)}.
 template <class Phase>
 void multiply_phase(Field& field, const Phase& phase) {
     const Grid& plane = field.grid().plane;
@@ -76,8 +75,7 @@ Peak brightest_order(View<const Complex, 2> spectrum, bool right) {
     Array<double, 2> sum_x = light, sum_y = light;
     for (std::size_t row = 0; row < height; ++row)
         for (std::size_t column = 0; column < width; ++column) {
-            // The left half is treated as the right half of the mirrored spectrum: for real holograms both orders are
-            // equal.
+            // Mirrors the left half of the spectrum: both orders of real holograms are equal.
             const double fx = sign * frequency(column, width), fy = -sign * frequency(row, height);
             const bool in_half = fx > 0 || (fx == 0 && fy > 0);
             if (std::hypot(fx, fy) < zero_order_radius || !in_half) continue;
@@ -112,8 +110,7 @@ double soft_aperture(double distance, double radius) {
     return inside >= 1 ? 1 : inside <= 0 ? 0 : 0.5 - 0.5 * std::cos(pi * inside);
 }
 
-// Cuts out an order with an aperture and moves it to zero frequency, by a whole number of frequency steps, so that the
-// shift is exact.
+// Cuts out an order and shifts it to zero frequency by whole frequency steps, which is exact.
 void isolate_order(Array<Complex, 2>& spectrum, SelectedOrder& order) {
     const std::size_t height = spectrum.extent(0), width = spectrum.extent(1);
     const auto shift = [](double f, std::size_t n) {

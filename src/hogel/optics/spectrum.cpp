@@ -210,8 +210,7 @@ Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height) {
 
 namespace {
 
-// Transform of a spectrum to the samples of its wave: first along columns, then along rows. The second step no longer
-// needs the spectrum's samples.
+// Transform of a spectrum to samples: along columns, then along rows. The second step does not need the spectrum.
 class ToWave {
   public:
     ToWave(const Spectrum& spectrum, std::size_t width, std::size_t height)
@@ -398,8 +397,7 @@ Band band_between(const Rectangle& from, const Rectangle& to, double distance, d
     const double dx_low = to.left - from.right, dx_high = to.right - from.left;
     const double dy_low = to.bottom - from.top, dy_high = to.top - from.bottom;
     const auto sines = [&](double low, double high, double other_low, double other_high) {
-        // For directions away from the axis the sine is largest at the smallest other offset; for directions towards
-        // the axis, at the largest.
+        // Away from the axis the sine is largest at the smallest other offset; towards the axis at the largest.
         const double other_min = min_offset(other_low, other_high),
                      other_max = std::max(std::abs(other_low), std::abs(other_high));
         const auto sine = [&](double offset, double other) { return offset / std::hypot(offset, other, distance); };

@@ -19,10 +19,9 @@ struct Band {
 /// Number of columns of a spectrum per block; all columns of a block are on the same rank.
 constexpr std::size_t spectrum_block_columns = 32;
 
-/// A monochromatic wave as a sum of plane waves: F(x) = Σ S(f) e^{2πi f·(x−c)} δf_x δf_y, with frequency steps δf =
-/// 1/size of a window with centre c that contains the wave. Light that leaves the window on one side wraps around to
-/// the other. The window must be wide enough, or directions that leave it are dropped. The functions below propagate
-/// waves in this form between planes ([K] 6.1).
+/// A monochromatic wave as a sum of plane waves: F(x) = Σ S(f) e^{2πi f·(x−c)} δf_x δf_y, with steps δf = 1/size of a
+/// window with centre c that contains the wave. Light that leaves the window wraps around: the window must be wide
+/// enough, or directions that leave it are dropped. The functions below propagate waves in this form ([K] 6.1).
 struct Spectrum {
     Grid window;            ///< the transformed window, with centre c
     double wavelength = 0;  ///< metres
@@ -55,8 +54,8 @@ class Wave final : public FieldSource {
     FieldGrid grid_;
 };
 
-/// Returns the grid `plane` padded to a size that suits the transforms. The padding is at least size_x and size_y
-/// metres, both sides together.
+/// Returns a grid padded by at least size_x and size_y metres (both sides together) to a size that suits the
+/// transforms.
 Grid padded(const Grid& plane, double size_x, double size_y);
 
 /// Returns the plane waves of a field at the frequencies in `band` that its samples represent. Reads the field row by
@@ -91,16 +90,16 @@ Spectrum gathered(Spectrum spectrum, Communicator& communicator, const ScratchOp
 struct PropagationOptions {
     double distance = 0;              ///< along +z; negative: backwards
     double shift_x = 0, shift_y = 0;  ///< sideways shift of the window's centre
-    /// Directions with a sideways path beyond shift ± reach are dropped. 0: half the window, beyond which the frequency
-    /// steps undersample the phase.
+    /// Directions with a sideways path beyond shift ± reach are dropped. 0: half the window, the limit of phase
+    /// sampling.
     double reach_x = 0, reach_y = 0;
     /// Distance over which directions beyond the reach fade out.
     double fade_x = 0, fade_y = 0;
 };
 
 /// Propagates by the angular spectrum method, [K] 6.1.1: S e^{2πi f_z z}, f_z = √(1/λ² − f²). Evanescent waves are
-/// dropped. Light that leaves a window of size W wraps around. It stays outside the area of the original wave, of width
-/// D, if the reach is at most W − D.
+/// dropped. Light that leaves a window of size W wraps around, outside the original wave of width D if the reach is at
+/// most W − D.
 void propagate(Spectrum& spectrum, const PropagationOptions& options);
 
 /// Returns the frequencies of light from one rectangle to another on a parallel plane at this distance: [K] 6.1.3.

@@ -5,8 +5,8 @@
 
 namespace hogel::optics {
 
-/// Returns a spectrum of zeros at the frequencies in `band` that the window's samples represent around a carrier.
-/// Throws Error(usage) if there are none.
+/// Returns a zero spectrum at the frequencies in `band` that the window represents around a carrier. Throws
+/// Error(usage) if there are none.
 Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
                         const ScratchOptions& scratch);
 

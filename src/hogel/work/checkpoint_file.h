@@ -59,8 +59,7 @@ class CheckpointReader {
     std::uint64_t next_ = 0;
 };
 
-/// Records of interruptible work. The first damaged or incomplete record ends the file: it never lists an unfinished
-/// item.
+/// Records of interruptible work. The file ends at the first damaged record: it never lists an unfinished item.
 class CheckpointFile {
   public:
     /// Opens or creates the file, and locks it. With an empty path nothing is stored. Throws Error(usage), with the
@@ -74,7 +73,6 @@ class CheckpointFile {
     std::optional<CheckpointRecord> read(const std::vector<std::uint64_t>* key = nullptr);
     /// Appends encoded records after the last record read. Removes unread records.
     void append(std::string_view records);
-    /// Removes all records.
     void clear();
     /// Removes the file.
     void remove();

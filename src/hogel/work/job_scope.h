@@ -12,8 +12,7 @@ class ResultLog;
 /// Ranks that execute a job: one rank, or all ranks of the communicator together.
 enum class DoneBy { one_rank, all_ranks };
 
-/// Scope of one job. Hides the communicator unless all ranks execute the job, and disables checkpointing inside the
-/// job.
+/// Scope of one job. Hides the communicator unless all ranks execute the job; disables checkpointing inside the job.
 class JobScope {
   public:
     explicit JobScope(DoneBy by = DoneBy::one_rank);

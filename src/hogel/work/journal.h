@@ -15,8 +15,7 @@
 
 namespace hogel::work {
 
-/// Checkpoint file beside a file of samples that lists the parts written so far. Lists a part only after its samples
-/// are on disk.
+/// Checkpoint file that lists the written parts of a file of samples. Lists a part only after its samples are on disk.
 class Journal {
   public:
     /// Numbers that identify a part, e.g. index of the output, corner and size.

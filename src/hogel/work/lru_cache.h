@@ -57,8 +57,8 @@ class LruCache {
         Future result;
     };
 
-    // Returns the future of an existing or pending result. Otherwise adds an entry for `promise`, and returns its
-    // future and number.
+    // Returns the future of an existing or pending result; or adds an entry for `promise`, and returns its future and
+    // number.
     std::pair<Future, std::optional<std::uint64_t>> look_up(const Key& key, Promise& promise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::ranges::find(entries_, key, &Entry::key);

@@ -14,8 +14,7 @@
 
 namespace hogel::work {
 
-/// Appends a number to a message. Trailing numbers carry the message's index and flags; long messages have room for
-/// them.
+/// Appends a number to a message, such as its index or a flag. Long messages have room for it.
 inline void append_number(std::string& bytes, std::uint64_t number) {
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }

@@ -57,11 +57,10 @@ void ordered_reduce_bytes(std::size_t n, std::size_t in_flight, const std::funct
 /// @param in_flight  as for local_ordered_reduce()
 std::size_t tiles_in_flight(std::size_t in_flight);
 
-/// local_ordered_reduce() over all ranks: the ranks share the computation, and the root merges all results in order, on
-/// a separate thread while it computes further results. A sum over tiles is therefore the same for any number of ranks.
-/// All ranks must call it in the same order, and never from loop bodies. Other ranks than the root merge nothing and
-/// may return before the root. Within a ResumeScope merged results are kept in a file and not computed again in the
-/// next run.
+/// local_ordered_reduce() over all ranks. The root merges all results in order, on a separate thread while it computes
+/// further results: a sum over tiles is the same for any number of ranks. All ranks must call it in the same order,
+/// never from loop bodies. Other ranks merge nothing and may return before the root. Within a ResumeScope merged
+/// results are kept in a file and not computed again in the next run.
 /// @param by  as for shared_jobs()
 template <class Result>
 void ordered_reduce(std::size_t n, std::size_t in_flight, const Sent<Result>& sent,

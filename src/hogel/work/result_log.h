@@ -43,8 +43,7 @@ class ResultLog {
 ResultLog* result_log();
 void set_result_log(ResultLog* log);
 
-/// Runs work whose results are in files of their own, unless the active ResumeScope records that an earlier run did it.
-/// All ranks call it.
+/// Runs work with results in its own files, unless the active ResumeScope records it as done. All ranks call it.
 void once(const std::function<void()>& work);
 
 }  // namespace hogel::work

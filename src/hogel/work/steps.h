@@ -13,7 +13,6 @@ class Steps {
   public:
     Steps(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
 
-    /// Reports that one more step is finished.
     void report_one() {
         const std::lock_guard lock(mutex_);
         progress_.report(static_cast<double>(++done_) / static_cast<double>(count_));

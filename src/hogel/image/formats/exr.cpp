@@ -175,8 +175,7 @@ void add_texts(Imf::Header& header, const Metadata& texts) {
         std::string name = key;
         for (const AttributeName& known : attribute_names)
             if (name == known.common) name = known.exr;
-        // Skips attributes that OpenEXR sets itself, such as "compression": they describe the file that is being
-        // written.
+        // Skips attributes that OpenEXR sets itself, such as "compression": they describe the new file.
         if (name.empty() || std::ranges::count(reserved, name) > 0 || header.find(name) != header.end()) continue;
         header.insert(name, Imf::StringAttribute(text));
     }

@@ -42,8 +42,7 @@ using Samples = std::variant<Array<std::uint8_t, 3>, Array<std::uint16_t, 3>, Ar
 struct Picture {
     Samples samples;  ///< empty if only_texts
     Metadata texts;
-    /// Largest possible code in the file, if smaller than the sample type allows: 1023 for a 10-bit pixmap; otherwise
-    /// 0.
+    /// Largest possible code, if smaller than the sample type allows: 1023 for a 10-bit pixmap; otherwise 0.
     std::uint32_t max_code = 0;
 };
 
@@ -64,7 +63,6 @@ ExrChannels read_exr_channels(const PictureBytes& file);
 Picture read_with_stb(const PictureBytes& file);
 /// Reads binary portable pixmaps, P5 and P6.
 Picture read_pnm(const PictureBytes& file);
-/// Reads portable float maps.
 Picture read_pfm(const PictureBytes& file);
 Picture read_tiff(const PictureBytes& file);
 Picture read_webp(const PictureBytes& file);
@@ -76,7 +74,6 @@ bool begins_like_tga(std::span<const unsigned char> bytes);
 // the storage of `texts`. They throw std::exception with a reason.
 enum class Curve { srgb, none };  ///< whether a PNG file declares its samples as sRGB
 std::vector<unsigned char> png_file(View<const std::uint8_t, 3> pixels, const Metadata& texts, Curve curve);
-/// 16 bits per sample.
 std::vector<unsigned char> png_file(View<const std::uint16_t, 3> pixels, const Metadata& texts, Curve curve);
 /// Codes 0 to max_code: one byte each if max_code <= 255, otherwise two.
 std::vector<unsigned char> pnm_file(View<const std::uint16_t, 3> codes, std::uint32_t max_code);

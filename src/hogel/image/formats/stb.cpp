@@ -92,9 +92,8 @@ struct Free {
     void operator()(void* memory) const { stbi_image_free(memory); }
 };
 
-// Returns whether a file is a bitmap with a grey palette. The file header has 14 bytes. The second header begins with
-// its length and has the bits per pixel at byte 14. The palette follows, four bytes per colour, and extends to the
-// pixels.
+// Returns whether a file is a bitmap with a grey palette. After 14 bytes follows a header that begins with its length
+// and has the bits per pixel at byte 14; then the palette, four bytes per colour, up to the pixels.
 bool has_grey_palette(std::span<const unsigned char> bytes) {
     const auto number = [&](std::size_t offset) {
         return bytes[offset] | std::size_t{bytes[offset + 1]} << 8 | std::size_t{bytes[offset + 2]} << 16 |

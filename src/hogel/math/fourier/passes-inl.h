@@ -96,8 +96,7 @@ HWY_INLINE void WithRadix(std::size_t radix, const Run& run) {
     }
 }
 
-// Maximum number of rows for which passes run over all rows. Above it groups run one after the other, to stay in the
-// first-level cache.
+// Maximum number of rows per pass. Above it the groups run one after the other, to stay in the first-level cache.
 constexpr std::size_t max_rows_by_pass = 192;
 
 template <class From, class To>

@@ -63,8 +63,8 @@ Plan::Plan(std::size_t n) : length(n), frequency{0}, position(n) {
             }
         rest /= radix;
     }
-    // A pass orders frequencies by their remainder modulo its radix. Backwards from the last pass: frequency f of part
-    // k is frequency k + radix · f of all parts.
+    // Each pass orders frequencies by their remainder modulo its radix: frequency f of part k is frequency k + radix ·
+    // f.
     for (auto radix = radices.rbegin(); radix != radices.rend(); ++radix) {
         std::vector<std::uint32_t> order;
         for (std::size_t k = 0; k < *radix; ++k)

@@ -13,8 +13,7 @@
 // parts of inputs and outputs of forward transforms.
 namespace hogel::math::fourier {
 
-/// Number of adjacent lines in a batch. In the split layout [position][part][line] the real parts of a batch precede
-/// its imaginary parts.
+/// Number of lines in a batch. In the split layout [position][part][line] real parts precede imaginary parts.
 constexpr std::size_t batch_lines = 16;
 /// Number of floats between positions in the split layout.
 constexpr std::size_t split_row = 2 * batch_lines;
@@ -45,8 +44,8 @@ struct Plan {
     std::vector<std::uint32_t> position;   // [frequency]
 };
 
-/// Transform of any length n as a convolution of a smooth length m ≥ 2n − 1 (Bluestein): with c_j = e^{-πi j²/n}, X_k =
-/// c_k Σ_j (x_j c_j) conj(c_{k−j}).
+/// Transform of any length n as a convolution of a smooth length m ≥ 2n − 1 (Bluestein), with c_j = e^{-πi j²/n}:
+/// X_k = c_k Σ_j (x_j c_j) conj(c_{k−j}).
 struct Chirp {
     Chirp(std::size_t length, std::size_t convolved);
 
@@ -84,8 +83,7 @@ extern void (&transform_lines)(const Plan& plan, const Chirp* chirp, bool backwa
 extern void (&transform_split)(const Split& split, bool backward, const float* from, float* to);
 /// Transforms sixteen lines in split layout in place, without reordering: frequency f is in row plan.position[f].
 extern void (&transform_in_place)(const Plan& plan, float* rows);
-/// Multiplies n complex numbers, out_i = x_i y_i. Optionally exchanges the real and imaginary parts of x, or of the
-/// result.
+/// Multiplies n complex numbers, out_i = x_i y_i. Optionally exchanges real and imaginary parts of x, or of the result.
 extern void (&multiply)(const float* x, const float* y, float* out, std::size_t n, bool exchange_x, bool exchange_out);
 
 }  // namespace hogel::math::fourier

@@ -35,8 +35,7 @@ void require_size(const std::string& bytes, std::size_t samples) {
         throw Error(ErrorCode::internal, "a message from another rank has an unexpected length");
 }
 
-// Returns the rank with which this rank exchanges messages in a step. In one of communicator.size() steps it is its
-// own.
+// Returns the peer of this rank in a step. In one of communicator.size() steps it is this rank itself.
 std::size_t partner(const Communicator& communicator, std::size_t step) {
     return (step + communicator.size() - communicator.rank()) % communicator.size();
 }

@@ -22,7 +22,6 @@ struct LineRange {
     std::size_t end() const { return first + count; }
 };
 
-/// Returns the intersection of two ranges.
 LineRange common_lines(const LineRange& a, const LineRange& b);
 
 /// Returns the lines of a rank. Ranks have about equal numbers of lines, in whole groups of `group` lines.
@@ -63,8 +62,7 @@ class LocalColumns {
 class SharedPlane {
   public:
     SharedPlane() = default;
-    /// Creates a plane in columns, with unspecified samples. The number of rows may change while the plane is in
-    /// columns.
+    /// Creates a plane in columns, with unspecified samples. While in columns, the number of rows may change.
     /// @param rows           the maximum number of rows
     /// @param block_rows     number of consecutive rows that stay on one rank; the last block may be smaller
     /// @param block_columns  likewise for columns

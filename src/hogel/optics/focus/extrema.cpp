@@ -8,8 +8,8 @@
 namespace hogel::optics {
 namespace {
 
-// Returns the noise of a curve: the 90th percentile of the deviations of samples from the mean of their neighbours. The
-// upper tenth may be planes in focus.
+// Returns the noise of a curve: the 90th percentile of deviations from the mean of the neighbours. The upper tenth may
+// be planes in focus.
 double noise_of(const std::vector<double>& curve) {
     std::vector<double> deviations;
     for (std::size_t i = 1; i + 1 < curve.size(); ++i)
@@ -46,8 +46,7 @@ std::vector<Extremum> maxima_of(const std::vector<double>& curve) {
 }
 
 // Returns extrema of both kinds at all scales that exceed the noise and are no wider than defocus makes them. Defocus
-// blurs a square of n samples away in about n depths of focus, more if the light has not all frequencies of the
-// samples.
+// blurs a square of n samples in about n depths of focus, more if the light lacks some frequencies of the samples.
 std::vector<Extremum> extrema_of(std::span<const Contrasts> contrasts, double step, double light_depth) {
     // Tuned on the fields of docs/holograms-from-elsewhere.md (docs/decisions/0085-planes-in-focus.md).
     constexpr double min_prominence = 0.08, min_noise_ratio = 4, max_width = 8;

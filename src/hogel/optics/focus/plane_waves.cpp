@@ -24,8 +24,8 @@ void halve(std::vector<double>& light, std::size_t& height, std::size_t& width) 
     width = across;
 }
 
-// Returns half the width of a circular distribution between its 5 % and 95 % points, in cycles per sample. The
-// distribution begins at its minimum.
+// Returns half the width between the 5 % and 95 % points of a circular distribution that begins at its minimum, in
+// cycles per sample.
 double half_width(const std::vector<double>& amplitudes) {
     const std::size_t n = amplitudes.size(),
                       from = static_cast<std::size_t>(std::ranges::min_element(amplitudes) - amplitudes.begin());

@@ -19,8 +19,8 @@ struct LightSums {
     FocusSearch::Contrasts contrasts() const;
 };
 
-/// Plane-wave spectrum of a part of a field, for refocusing to parallel planes. Light that leaves the part on one side
-/// wraps around to the other.
+/// Plane-wave spectrum of a part of a field, for refocusing to parallel planes. Light that leaves the part wraps
+/// around.
 class PlaneWaves {
   public:
     /// Reads the region of the field at look 0.

@@ -212,8 +212,7 @@ class TileWork {
     std::mutex reporting_;
 };
 
-// Writes zeros to the output outside its illuminated region. Ranks take turns with blocks, except if each rank has the
-// output in its own memory.
+// Writes zeros outside the illuminated region. Ranks share the blocks, unless each has the output in its own memory.
 void write_dark(FieldSink& sink, const Grid& output, const Region& illuminated) {
     const std::size_t right = illuminated.x0 + illuminated.width, below = illuminated.y0 + illuminated.height;
     const Region parts[] = {{0, 0, output.width, illuminated.y0},
@@ -249,8 +248,8 @@ struct Tiling {
         const auto [y0, y1] = range(row, down, output.height);
         return {x0, y0, x1 - x0, y1 - y0};
     }
-    // Returns the plans of the four corner tiles, which are the most oblique, and of a central tile, because corners
-    // may be dark.
+    // Returns the plans of the corner tiles, which are the most oblique, and of a central tile, because corners may be
+    // dark.
     std::vector<TilePlan> sample_plans(const FieldGrid& field, double distance) const {
         std::vector<TilePlan> plans{plan_tile(field, distance, part(output, tile(across / 2, down / 2)))};
         for (const std::size_t row : {std::size_t{0}, down - 1})
@@ -260,8 +259,7 @@ struct Tiling {
     }
 };
 
-// Chooses a tiling. A tile needs fewer frequencies than the whole output, because less light leads to it, but each tile
-// transforms the whole field.
+// Chooses a tiling. A tile needs fewer frequencies, because less light leads to it, but transforms the whole field.
 Tiling tiling_of(const FieldGrid& field, double distance, const Grid& output) {
     const auto operations = [&](const Tiling& tiling) {
         double worst = 0;

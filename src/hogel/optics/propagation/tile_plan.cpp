@@ -66,8 +66,7 @@ void set_guards(TilePlan& plan) {
     }
 }
 
-// Returns the shortest and the longest sideways path at the band edge of this axis, over all frequencies of the other
-// axis.
+// Returns the shortest and longest sideways path at this axis' band edge, over all frequencies of the other axis.
 std::pair<double, double> edge_paths(const TilePlan& plan, const AxisPlan& axis, double other_frequency) {
     const double z = std::abs(plan.distance), f = axis.edge_frequency();
     const double squares = 1 / (plan.wavelength * plan.wavelength) - f * f;

@@ -14,8 +14,8 @@ struct AxisPlan {
     Steps field, output, frequencies;
     /// Light to the output has sideways paths within middle ± reach, metres.
     double middle = 0, reach = 0;
-    /// Directions whose sideways path exceeds that by more than guard/2 fade out over a multiple of `fresnel`, which is
-    /// √(λz) for light along the axis. Metres.
+    /// Directions with a path longer by more than guard/2 fade out over a multiple of `fresnel`: √(λz) along the axis.
+    /// Metres.
     double fresnel = 0, guard = 0;
     double period = 0;  ///< inverse of the frequency step, metres; an even number of field samples
     /// Sizes of the Fourier transforms from samples to frequencies and from frequencies to the output; 0: chirp-z.
