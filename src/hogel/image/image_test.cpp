@@ -193,9 +193,9 @@ TEST_F(ImageFile, refusals_name_the_file_and_the_reason) {
 TEST_F(ImageFile, a_header_that_claims_too_much_is_refused_before_memory_is_taken) {
     // A complete PNG whose header says 16384 x 16384 pixels: 800 MB of samples in 100 bytes.
     std::vector<unsigned char> png = encode_png(Image(1, 1, 3));
-    const auto patch = [&](std::size_t at, std::uint32_t value) {
+    const auto patch = [&](std::size_t offset, std::uint32_t value) {
         for (int i = 0; i < 4; ++i)
-            png[at + static_cast<std::size_t>(i)] = static_cast<unsigned char>(value >> (24 - 8 * i));
+            png[offset + static_cast<std::size_t>(i)] = static_cast<unsigned char>(value >> (24 - 8 * i));
     };
     patch(16, 16384);
     patch(20, 16384);
@@ -220,10 +220,10 @@ TEST_F(ImageFile, truncated_and_damaged_pictures_never_crash) {
                 EXPECT_EQ(error.code(), ErrorCode::bad_input);
             }
         }
-        for (std::size_t at = 0; at < std::min<std::size_t>(whole.size(), 300); ++at)
+        for (std::size_t offset = 0; offset < std::min<std::size_t>(whole.size(), 300); ++offset)
             for (const unsigned char value : {0x00, 0x7f, 0xff}) {
                 std::vector<unsigned char> damaged = whole;
-                damaged[at] = value;
+                damaged[offset] = value;
                 try {
                     decode_image(damaged, name, 1 << 20);
                 } catch (const Error& error) {

@@ -80,11 +80,11 @@ PhaseCode parse_phase_code(const std::string& text) {
     if (const PhaseCodeInfo* known = phase_codes().look_up(text)) return known->code;
     if (text.find('=') == std::string::npos && text != "invert") return phase_codes().find(text).code;
     PhaseCode code{full_turn, 0, false, true};
-    for (std::string_view rest = text; !rest.empty();) {
-        const std::size_t comma = rest.find(',');
-        const std::string_view part = rest.substr(0, comma);
-        rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
-        if (comma != std::string_view::npos && rest.empty()) fail(text, "ends with a comma");
+    for (std::string_view remaining = text; !remaining.empty();) {
+        const std::size_t comma = remaining.find(',');
+        const std::string_view part = remaining.substr(0, comma);
+        remaining = comma == std::string_view::npos ? std::string_view{} : remaining.substr(comma + 1);
+        if (comma != std::string_view::npos && remaining.empty()) fail(text, "ends with a comma");
         const std::size_t equals = part.find('=');
         const std::string_view name = part.substr(0, equals);
         if (part == "invert") {

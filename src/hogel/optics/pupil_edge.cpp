@@ -29,10 +29,11 @@ void SpreadWindow::fit(double room) {
 }
 
 double light_left_out(const SpreadWindow& window, double span_x, double span_y, double cell) {
-    const auto beyond = [&](double sines) {
+    const auto fraction_beyond = [&](double sines) {
         return 2 / (std::numbers::pi * std::numbers::pi * std::max(sines / cell, 1.0));
     };
-    return std::max(0.0, beyond(0.5 * (window.flat + window.stop) - window.spot) - beyond(0.25 * (span_x + span_y)));
+    return std::max(0.0, fraction_beyond(0.5 * (window.flat + window.stop) - window.spot) -
+                             fraction_beyond(0.25 * (span_x + span_y)));
 }
 
 PupilEdge::PupilEdge(const SpreadWindow& window, double wavelength) {

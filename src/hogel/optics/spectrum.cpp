@@ -168,17 +168,18 @@ Spectrum transformed(const FieldSource& source, std::size_t look, const Grid& wi
     // Transforms the columns and keeps the rows of the band.
     shared.to_columns(plane.height);
     const std::vector<Complex> centre_y = centring(first_row, rows, window.height, -1, 1);
-    const distributed::LocalColumns before = shared.in_columns(plane.height), after = shared.in_columns(rows);
+    const distributed::LocalColumns field_columns = shared.in_columns(plane.height),
+                                    band_columns = shared.in_columns(rows);
     work::parallel_for(blocks_of(local_columns.count), [&](std::size_t block) {
         const std::size_t x0 = local_columns.first + block * block_lines,
                           width = std::min(block_lines, local_columns.end() - x0);
         Array<Complex, 2> lines({width, stride_of(window.height)});
         for (std::size_t y = 0; y < plane.height; ++y)
-            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = before(y, x0 + i);
+            for (std::size_t i = 0; i < width; ++i) lines(i, above + y) = field_columns(y, x0 + i);
         for (std::size_t i = 0; i < width; ++i) down.forward(&lines(i, 0));
         for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t index = wrapped(first_row + static_cast<std::ptrdiff_t>(r), window.height);
-            for (std::size_t i = 0; i < width; ++i) after(r, x0 + i) = times(lines(i, index), centre_y[r]);
+            for (std::size_t i = 0; i < width; ++i) band_columns(r, x0 + i) = times(lines(i, index), centre_y[r]);
         }
         steps.report_one();
     });

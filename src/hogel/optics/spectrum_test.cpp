@@ -81,16 +81,16 @@ TEST(Spectrum, a_tilted_plane_wave_gains_its_phase) {
         std::abs(spectrum.samples.view()(std::size_t(9 - spectrum.first_row), std::size_t(17 - spectrum.first_column))),
         plane.size_x() * plane.size_y(), 1e-5 * plane.size_x() * plane.size_y());
     propagate(spectrum, {z, 0, 0, 1, 1});
-    const Wave there = wave_of(spectrum, 100, 90);
-    EXPECT_LT(worst(there, [&](double x, double y) { return wave(x, y) * unit_phasor(fz * z); }), 1e-5);
+    const Wave propagated = wave_of(spectrum, 100, 90);
+    EXPECT_LT(worst(propagated, [&](double x, double y) { return wave(x, y) * unit_phasor(fz * z); }), 1e-5);
 }
 
 TEST(Spectrum, a_gaussian_beam_widens_and_curves) {
     const Grid plane{512, 480, 1_um, 1_um, 0, 0};
     const Field waist = sampled(plane, [](double x, double y) { return gaussian_beam(20_um, x, y, 0); });
     for (double z : {3_mm, -5_mm}) {
-        const Field there = hogel::propagate(waist, z);
-        EXPECT_LT(worst(there, [&](double x, double y) { return gaussian_beam(20_um, x, y, z); }), 1e-3) << z;
+        const Field propagated = hogel::propagate(waist, z);
+        EXPECT_LT(worst(propagated, [&](double x, double y) { return gaussian_beam(20_um, x, y, z); }), 1e-3) << z;
     }
 }
 
@@ -106,8 +106,8 @@ TEST(Spectrum, a_spherical_wave_stays_spherical) {
     };
     const Field before = sampled(plane, [&](double x, double y) { return wave(x, y, 100_um); });
     for (double z : {200_um, -60_um, 350_um}) {
-        const Field there = hogel::propagate(before, z);
-        EXPECT_LT(worst(there, [&](double x, double y) { return wave(x, y, 100_um + z); }), 1e-3) << z;
+        const Field propagated = hogel::propagate(before, z);
+        EXPECT_LT(worst(propagated, [&](double x, double y) { return wave(x, y, 100_um + z); }), 1e-3) << z;
     }
 }
 
@@ -184,7 +184,7 @@ TEST(Elements, a_rectangular_opening_makes_fresnels_pattern) {
     const Rectangle opening{Grid{200, 160, 1_um, 1_um, 0, 0}};
     rectangular_aperture(wave, opening);
     const double z = 30_mm, scale = std::sqrt(2 / (wavelength * z));
-    const Field there = hogel::propagate(wave, z);
+    const Field propagated = hogel::propagate(wave, z);
     const auto along = [&](double at, double half) {
         return (fresnel_integral(scale * (half - at)) + fresnel_integral(scale * (half + at))) *
                std::polar(std::sqrt(0.5), -pi / 4);
@@ -193,7 +193,7 @@ TEST(Elements, a_rectangular_opening_makes_fresnels_pattern) {
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = along(plane.x(double(i)), 100_um);
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = along(plane.y(double(i)), 80_um);
     EXPECT_LT(worst(
-                  there,
+                  propagated,
                   [&](double x, double y) {
                       return columns[std::size_t(std::lround(plane.column(x)))] *
                              rows[std::size_t(std::lround(plane.row(y)))] * unit_phasor(z / wavelength);

@@ -316,10 +316,10 @@ TEST(DamagedPictures, cut_at_any_length_are_refused_in_one_line) {
 TEST(DamagedPictures, with_any_byte_changed_are_read_or_refused_in_one_line) {
     testing::internal::CaptureStderr();
     for (const Sample& sample : samples())
-        for (std::size_t at = 0; at < std::min<std::size_t>(sample.bytes.size(), 700); ++at)
+        for (std::size_t offset = 0; offset < std::min<std::size_t>(sample.bytes.size(), 700); ++offset)
             for (const unsigned char value : {0x00, 0x01, 0x7f, 0xff}) {
                 Bytes damaged = sample.bytes;
-                damaged[at] = value;
+                damaged[offset] = value;
                 is_read(damaged);
             }
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -111,8 +111,8 @@ bool has_grey_palette(std::span<const unsigned char> bytes) {
 template <class T, class Load>
 Samples load_samples(const PictureBytes& file, int channels, const Load& load) {
     StbSource source{file.bytes};
-    int width = 0, height = 0, stored = 0;
-    const std::unique_ptr<T, Free> pixels(load(&callbacks, &source, &width, &height, &stored, channels));
+    int width = 0, height = 0, file_channels = 0;
+    const std::unique_ptr<T, Free> pixels(load(&callbacks, &source, &width, &height, &file_channels, channels));
     if (!pixels) fail(file);
     const auto extent = [](int size) { return static_cast<std::size_t>(size); };
     Array<T, 3> samples({extent(height), extent(width), extent(channels)});
@@ -126,14 +126,14 @@ Picture read_with_stb(const PictureBytes& file) {
     if (file.only_texts) return {};
     const ReleaseAll release;
     StbSource source{file.bytes};
-    int width = 0, height = 0, stored = 0;
-    if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &stored) == 0) fail(file);
+    int width = 0, height = 0, file_channels = 0;
+    if (stbi_info_from_callbacks(&callbacks, &source, &width, &height, &file_channels) == 0) fail(file);
     StbSource start{file.bytes};
     const bool linear = stbi_is_hdr_from_callbacks(&callbacks, &start) != 0;
     const auto positive = [](int size) { return static_cast<std::uint64_t>(std::max(size, 0)); };
-    const bool alpha = file.with_alpha && !linear && (stored == 2 || stored == 4);
-    file.check_size(positive(width), positive(height), alpha ? 4 : positive(stored), linear ? sizeof(float) : 1);
-    const int channels = alpha ? 4 : stored >= 3 && !has_grey_palette(file.bytes) ? 3 : 1;
+    const bool alpha = file.with_alpha && !linear && (file_channels == 2 || file_channels == 4);
+    file.check_size(positive(width), positive(height), alpha ? 4 : positive(file_channels), linear ? sizeof(float) : 1);
+    const int channels = alpha ? 4 : file_channels >= 3 && !has_grey_palette(file.bytes) ? 3 : 1;
     Picture picture;
     picture.samples = linear ? load_samples<float>(file, channels, stbi_loadf_from_callbacks)
                              : load_samples<stbi_uc>(file, channels, stbi_load_from_callbacks);

@@ -111,12 +111,13 @@ TEST_P(FourierTransforms, give_the_plain_result_for_large_lengths) {
 
 TEST_P(FourierTransforms, of_a_delta_is_a_wave) {
     for (const std::size_t n : some_lengths) {
-        const std::size_t at = n / 3;
+        const std::size_t offset = n / 3;
         Line x(n);
-        x[at] = 1;
+        x[offset] = 1;
         ExactLine wave(n);
         for (std::size_t k = 0; k < n; ++k)
-            wave[k] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(at * k % n) / static_cast<double>(n));
+            wave[k] =
+                std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(offset * k % n) / static_cast<double>(n));
         EXPECT_LT(relative_error(forward(x).data(), wave), allowed_error(n)) << n;
         EXPECT_LT(relative_error(backward(x).data(), conjugate(wave)), allowed_error(n)) << n;
     }

@@ -51,10 +51,10 @@ struct Case {
 };
 
 // Discs of different brightness in the middle of the hologram, with a constant or random phase.
-Field object_of(const Case& of) {
-    Field field(of.grid);
-    const Grid& plane = of.grid.plane;
-    std::mt19937 random(of.seed);
+Field object_of(const Case& test_case) {
+    Field field(test_case.grid);
+    const Grid& plane = test_case.grid.plane;
+    std::mt19937 random(test_case.seed);
     std::uniform_real_distribution<double> unit(0, 1);
     const double side = 0.6 * double(std::min(plane.width, plane.height));
     std::vector<double> light(plane.samples(), 0.0);
@@ -68,19 +68,21 @@ Field object_of(const Case& of) {
     }
     for (std::size_t i = 0; i < light.size(); ++i)
         field.samples.data()[i] =
-            Complex(std::polar(std::sqrt(light[i]), of.surface == Surface::rough ? 2 * pi * unit(random) : 0.0));
-    filter(field,
-           [&](double fx, double fy) { return std::max(std::abs(fx), std::abs(fy)) <= 0.5 * of.band ? 1.0 : 0.0; });
+            Complex(std::polar(std::sqrt(light[i]), test_case.surface == Surface::rough ? 2 * pi * unit(random) : 0.0));
+    filter(field, [&](double fx, double fy) {
+        return std::max(std::abs(fx), std::abs(fy)) <= 0.5 * test_case.band ? 1.0 : 0.0;
+    });
     return field;
 }
 
 // Propagates the object's light forward to the hologram.
-Field hologram_of(const Case& of) {
-    Field field = object_of(of);
+Field hologram_of(const Case& test_case) {
+    Field field = object_of(test_case);
     filter(field, [&](double fx, double fy) {
-        const double square = (fx * fx + fy * fy) / std::pow(of.grid.plane.pitch_x, 2),
-                     inverse = 1 / of.grid.wavelength;
-        return std::polar(1.0, 2 * pi * of.depth() * (std::sqrt(std::max(0.0, inverse * inverse - square)) - inverse));
+        const double square = (fx * fx + fy * fy) / std::pow(test_case.grid.plane.pitch_x, 2),
+                     inverse = 1 / test_case.grid.wavelength;
+        return std::polar(
+            1.0, 2 * pi * test_case.depth() * (std::sqrt(std::max(0.0, inverse * inverse - square)) - inverse));
     });
     return field;
 }
@@ -89,17 +91,18 @@ FieldGrid grid_of(std::size_t width, std::size_t height, double pitch, double wa
     return {{width, height, pitch, pitch, 0, 0}, wavelength};
 }
 
-FocusSearch search_near(const Fields& fields, const Case& of, double around = 60) {
+FocusSearch search_near(const Fields& fields, const Case& test_case, double around = 60) {
     FocusOptions options;
-    options.from = of.depth() - around * of.depth_of_focus() * 1.013;
-    options.to = of.depth() + around * of.depth_of_focus();
+    options.from = test_case.depth() - around * test_case.depth_of_focus() * 1.013;
+    options.to = test_case.depth() + around * test_case.depth_of_focus();
     return find_focus(fields, options);
 }
 
 // Returns the error of the clearest plane, in depths of focus of the object's light.
-double error_of(const FocusSearch& search, const Case& of) {
+double error_of(const FocusSearch& search, const Case& test_case) {
     if (search.planes.empty()) return std::numeric_limits<double>::infinity();
-    return (search.planes.front().depth - of.depth()) / of.depth_of_focus() * of.band * of.band;
+    return (search.planes.front().depth - test_case.depth()) / test_case.depth_of_focus() * test_case.band *
+           test_case.band;
 }
 
 // The combinations of cases differ from those with which the thresholds were tuned.
@@ -112,12 +115,12 @@ TEST(Planes, of_smooth_and_rough_objects_are_found_within_a_depth_of_focus) {
         for (const Surface surface : {Surface::smooth, Surface::rough})
             for (const double band : {1.0, 0.6, 0.35}) {
                 depths = depths > 0 ? -depths - 1.3 : -depths;
-                const Case of{grid, depths / (band * band), surface, band, seed++};
+                const Case test_case{grid, depths / (band * band), surface, band, seed++};
                 const FocusSearch search =
-                    search_near({std::make_shared<Field>(hologram_of(of))}, of, 14 / (band * band));
-                EXPECT_LT(std::abs(error_of(search, of)), 1)
-                    << (surface == Surface::smooth ? "smooth" : "rough") << " at " << of.depth() << ", band " << band
-                    << ", seed " << of.seed;
+                    search_near({std::make_shared<Field>(hologram_of(test_case))}, test_case, 14 / (band * band));
+                EXPECT_LT(std::abs(error_of(search, test_case)), 1)
+                    << (surface == Surface::smooth ? "smooth" : "rough") << " at " << test_case.depth() << ", band "
+                    << band << ", seed " << test_case.seed;
                 // Nine tenths of the amplitudes are in less than the band, and there is no light outside the band.
                 EXPECT_GT(search.light_depth_of_focus * band * band, search.depth_of_focus);
                 EXPECT_LT(search.light_depth_of_focus * band * band, 2.5 * search.depth_of_focus);
@@ -128,8 +131,8 @@ TEST(Planes, of_smooth_and_rough_objects_are_found_within_a_depth_of_focus) {
 TEST(Planes, of_unknown_depth_are_found) {
     for (const Surface surface : {Surface::smooth, Surface::rough})
         for (const double depths : {23.6, -31.1}) {
-            const Case of{grid_of(160, 160, 6_um, 520_nm), depths, surface, 0.8, 3};
-            EXPECT_LT(std::abs(error_of(find_focus(hologram_of(of)), of)), 1) << depths;
+            const Case test_case{grid_of(160, 160, 6_um, 520_nm), depths, surface, 0.8, 3};
+            EXPECT_LT(std::abs(error_of(find_focus(hologram_of(test_case)), test_case)), 1) << depths;
         }
 }
 
@@ -140,9 +143,9 @@ TEST(Planes, beyond_the_first_range_are_found) {
     for (const Surface surface : {Surface::smooth, Surface::rough})
         for (const double depth : {1.6 * first, -3.1 * first}) {
             // A wide plane; the hologram records the central part of its light.
-            Case of{grid_of(256, 256, 4_um, 532_nm), 0, surface, 0.4, 6};
-            of.depths = depth / of.depth_of_focus();
-            const Field wide = hologram_of(of);
+            Case test_case{grid_of(256, 256, 4_um, 532_nm), 0, surface, 0.4, 6};
+            test_case.depths = depth / test_case.depth_of_focus();
+            const Field wide = hologram_of(test_case);
             Field field({window, 532_nm});
             wide.read({64, 64, 128, 128}, 0, field.samples);
             const FocusSearch search = find_focus(field);
@@ -159,8 +162,8 @@ TEST(Planes, of_off_axis_recordings_are_found) {
     const double frequency = 0.31;
     for (const Surface surface : {Surface::smooth, Surface::rough})
         for (const double depths : {81.0, -104.0}) {
-            const Case of{grid_of(360, 320, 4_um, 633_nm), depths, surface, 0.3, 5};
-            Field field = hologram_of(of);
+            const Case test_case{grid_of(360, 320, 4_um, 633_nm), depths, surface, 0.3, 5};
+            Field field = hologram_of(test_case);
             for (std::size_t i = 0; i < field.samples.size(); ++i) {
                 const double x = double(i % field.grid().plane.width);
                 const double light = std::norm(std::complex<double>(field.samples.data()[i]) * 0.2 +
@@ -171,14 +174,15 @@ TEST(Planes, of_off_axis_recordings_are_found) {
             selection.without_mean = true;
             selection.which = OrderSelection::Which::right;
             const SelectedOrder order = select_order(field, selection);
-            EXPECT_LT(std::abs(error_of(find_focus(order.field, {.from = -10_mm, .to = 10_mm}), of)), 1) << depths;
+            EXPECT_LT(std::abs(error_of(find_focus(order.field, {.from = -10_mm, .to = 10_mm}), test_case)), 1)
+                << depths;
         }
 }
 
 // The twin image of an in-line recording is at the same distance on the other side.
 TEST(Planes, of_in_line_recordings_are_found_on_either_side) {
-    const Case of{grid_of(224, 224, 3.45_um, 532_nm), 33.3, Surface::smooth, 1, 9};
-    Field field = hologram_of(of);
+    const Case test_case{grid_of(224, 224, 3.45_um, 532_nm), 33.3, Surface::smooth, 1, 9};
+    Field field = hologram_of(test_case);
     double mean = 0;
     for (Complex& sample : field.samples.elements()) {
         sample = Complex(std::norm(1.0f - 0.4f * sample));
@@ -187,7 +191,7 @@ TEST(Planes, of_in_line_recordings_are_found_on_either_side) {
     for (Complex& sample : field.samples.elements()) sample -= Complex(float(mean));
     const FocusSearch search = find_focus(field);
     ASSERT_FALSE(search.planes.empty());
-    EXPECT_NEAR(std::abs(search.planes.front().depth), of.depth(), of.depth_of_focus());
+    EXPECT_NEAR(std::abs(search.planes.front().depth), test_case.depth(), test_case.depth_of_focus());
 }
 
 // Combines the colours of one object, each with its own sampling. A colour without content does no harm.
@@ -213,18 +217,18 @@ TEST(Planes, of_several_colours_are_those_of_one_object) {
 
 // A region wider than max_side is searched in parts that cover exactly the region.
 TEST(Planes, are_found_in_parts_of_a_field) {
-    const Case of{grid_of(300, 260, 4_um, 532_nm), 9.4, Surface::smooth, 1, 2};
-    const Field field = hologram_of(of);
+    const Case test_case{grid_of(300, 260, 4_um, 532_nm), 9.4, Surface::smooth, 1, 2};
+    const Field field = hologram_of(test_case);
     FocusOptions options;
-    options.from = -2 * of.depth();
-    options.to = 3 * of.depth();
+    options.from = -2 * test_case.depth();
+    options.to = 3 * test_case.depth();
     options.max_side = 128;
     EXPECT_EQ(focus_region(field.grid(), options), (Region{86, 66, 128, 128}));
     options.width = 999;
     options.height = 260;
     EXPECT_EQ(focus_region(field.grid(), options), (Region{0, 0, 300, 260}));
     const FocusSearch parts = find_focus(field, options);
-    EXPECT_LT(std::abs(error_of(parts, of)), 1);
+    EXPECT_LT(std::abs(error_of(parts, test_case)), 1);
     // At depth 0 the contrast of one-sample squares is that of the field itself.
     options.from = 0;
     options.to = 1_um;

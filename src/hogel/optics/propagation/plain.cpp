@@ -67,9 +67,9 @@ std::vector<DoubleComplex> sum_of_plane_waves(const Field& field, double distanc
         path_x = std::max(path_x, std::abs(point.x - plane.center_x) + 0.5 * plane.size_x());
         path_y = std::max(path_y, std::abs(point.y - plane.center_y) + 0.5 * plane.size_y());
     }
-    const double aside = path_at_edge(field.grid(), distance);
-    const Nodes x = nodes_of(plane.pitch_x, path_x + aside, field.grid().wavelength),
-                y = nodes_of(plane.pitch_y, path_y + aside, field.grid().wavelength);
+    const double edge_path = path_at_edge(field.grid(), distance);
+    const Nodes x = nodes_of(plane.pitch_x, path_x + edge_path, field.grid().wavelength),
+                y = nodes_of(plane.pitch_y, path_y + edge_path, field.grid().wavelength);
     std::vector<DoubleComplex> result(points.size()), column(plane.height), along_x(points.size());
     std::vector<DoubleComplex> along_y;  // [node][point]
     for (const double f : y.position)

@@ -113,8 +113,8 @@ class TileWork {
         const AxisPlan& y = plan_.y;
         const LineTransform inward(y.field, y.frequencies, -1, y.field.step, y.inward);
         const LineTransform outward(y.frequencies, y.output, 1, 1 / (plan_.x.period * y.period), y.outward);
-        const distributed::LocalColumns before = frequencies_.in_columns(y.field.count),
-                                        after = frequencies_.in_columns(y.output.count);
+        const distributed::LocalColumns field_columns = frequencies_.in_columns(y.field.count),
+                                        output_columns = frequencies_.in_columns(y.output.count);
         const std::size_t blocks = blocks_of(columns_.count);
         std::vector<Transfer::Energy> energies(blocks);
         work::parallel_for(blocks, [&](std::size_t block) {
@@ -122,7 +122,7 @@ class TileWork {
                               count = std::min(block_lines, columns_.end() - x0);
             Lines lines(count, std::max(inward.buffer(), outward.buffer()));
             for (std::size_t row = 0; row < y.field.count; ++row)
-                for (std::size_t i = 0; i < count; ++i) lines[i][row] = before(row, x0 + i);
+                for (std::size_t i = 0; i < count; ++i) lines[i][row] = field_columns(row, x0 + i);
             for (std::size_t i = 0; i < count; ++i) {
                 inward(lines[i]);
                 const std::span<Complex> frequencies = lines[i].first(y.frequencies.count);
@@ -135,7 +135,7 @@ class TileWork {
                 outward(lines[i]);
             }
             for (std::size_t row = 0; row < y.output.count; ++row)
-                for (std::size_t i = 0; i < count; ++i) after(row, x0 + i) = lines[i][row];
+                for (std::size_t i = 0; i < count; ++i) output_columns(row, x0 + i) = lines[i][row];
             report_block();
         });
         require_little_grazing_light(energies);

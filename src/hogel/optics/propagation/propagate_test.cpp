@@ -95,8 +95,8 @@ double difference(const Field& a, const Field& b) {
 
 // Returns the relative error at some output samples, including the corners.
 template <class Sum>
-double error_against(const Sum& sum, const Field& field, double distance, const Field& there) {
-    const Grid& plane = there.grid().plane;
+double error_against(const Sum& sum, const Field& field, double distance, const Field& propagated) {
+    const Grid& plane = propagated.grid().plane;
     std::mt19937 random(11);
     std::vector<PlanePoint> points;
     std::vector<Complex> values;
@@ -104,7 +104,7 @@ double error_against(const Sum& sum, const Field& field, double distance, const 
         const std::size_t row = i == 0 ? 0 : i == 1 ? plane.height - 1 : random() % plane.height;
         const std::size_t column = i == 0 ? 0 : i == 1 ? plane.width - 1 : random() % plane.width;
         points.push_back({plane.x(double(column)), plane.y(double(row))});
-        values.push_back(Complex(there.samples(row, column)));
+        values.push_back(Complex(propagated.samples(row, column)));
     }
     const std::vector<Complex> right = sum(field, distance, points);
     double error = 0, all = 0;
@@ -115,7 +115,7 @@ double error_against(const Sum& sum, const Field& field, double distance, const 
     return std::sqrt(error / all);
 }
 
-Field at(const Field& field, double distance, const Grid& output) {
+Field propagate_to(const Field& field, double distance, const Grid& output) {
     PropagateOptions options;
     options.output = output;
     return hogel::propagate(field, distance, options);
@@ -138,7 +138,7 @@ TEST(PropagateNear, noise_equals_the_sum_of_its_plane_waves) {
             EXPECT_LT(error_against(sum_of_plane_waves, field, z, hogel::propagate(field, z)), 1e-3)
                 << wavelength << ' ' << pitch << ' ' << z;
             const Grid other{50, 40, 0.7 * pitch, 0.9 * pitch, -10 * pitch, 5 * pitch};
-            EXPECT_LT(error_against(sum_of_plane_waves, field, z, at(field, z, other)), 1e-3)
+            EXPECT_LT(error_against(sum_of_plane_waves, field, z, propagate_to(field, z, other)), 1e-3)
                 << wavelength << ' ' << pitch << ' ' << z << " other samples";
         }
 }
@@ -184,7 +184,7 @@ TEST(PropagateFar, every_size_distance_and_wavelength_equals_the_sum_of_spherica
                 EXPECT_LT(error_against(sum_of_spherical_waves, field, z, hogel::propagate(field, z)), 1e-3)
                     << size << ' ' << z << ' ' << wavelength;
                 const Grid wide{7, 6, 0.6 * aside / 7, 0.6 * aside / 6, 0.1 * aside, -0.05 * aside};
-                EXPECT_LT(error_against(sum_of_spherical_waves, field, z, at(field, z, wide)), 1e-3)
+                EXPECT_LT(error_against(sum_of_spherical_waves, field, z, propagate_to(field, z, wide)), 1e-3)
                     << size << ' ' << z << ' ' << wavelength << " wide";
             } else {
                 EXPECT_LT(error_against(sum_of_plane_waves, field, z, hogel::propagate(field, z)), 1e-3)
@@ -209,9 +209,10 @@ TEST(PropagateFar, a_gaussian_beam_in_windows_much_narrower_than_itself) {
                 if (w > 50_um && n == 512) continue;  // cut by the window by more than 1e-3
                 const Field waist =
                     sampled(plane, 532_nm, [&](double x, double y) { return gaussian_beam(532_nm, w, x, y, 0); });
-                const Field there = hogel::propagate(waist, z);
-                EXPECT_LT(relative_error(there, [&](double x, double y) { return gaussian_beam(532_nm, w, x, y, z); }),
-                          z > 5_m && w < 50_um ? 6e-3 : 1e-3)
+                const Field propagated = hogel::propagate(waist, z);
+                EXPECT_LT(
+                    relative_error(propagated, [&](double x, double y) { return gaussian_beam(532_nm, w, x, y, z); }),
+                    z > 5_m && w < 50_um ? 6e-3 : 1e-3)
                     << w << ' ' << z << ' ' << n;
             }
 }
@@ -224,9 +225,9 @@ TEST(PropagateFar, output_samples_of_any_pitch_show_the_whole_beam) {
     for (const double z : {10_mm, 0.3_m, 1_m, -1_m}) {
         const double wide = w * std::hypot(1, z * 532_nm / (pi * w * w));
         const Grid output{96, 110, 6.5 * wide / 96, 6.8 * wide / 110, 20_um, 30_um};
-        const Field there = at(waist, z, output);
-        EXPECT_LT(relative_error(there, [&](double x, double y) { return beam(x, y, z); }), 1e-3) << z;
-        EXPECT_NEAR(energy(there) / energy(waist), 1, 1e-4) << z;
+        const Field propagated = propagate_to(waist, z, output);
+        EXPECT_LT(relative_error(propagated, [&](double x, double y) { return beam(x, y, z); }), 1e-3) << z;
+        EXPECT_NEAR(energy(propagated) / energy(waist), 1, 1e-4) << z;
     }
 }
 
@@ -239,7 +240,7 @@ TEST(PropagateFar, a_square_opening_makes_fraunhofers_pattern) {
     const auto waves = [](double f, double n) {
         return std::abs(f) < 1 ? n * 1_um : 1_um * std::sin(pi * n * 1_um * f) / std::sin(pi * 1_um * f);
     };
-    EXPECT_LT(relative_error(at(opening, z, output),
+    EXPECT_LT(relative_error(propagate_to(opening, z, output),
                              [&](double x, double y) {
                                  const double r = std::hypot(x, y, z), f = 1 / (wavelength * r);
                                  return Complex(0, -z / r * f) * waves(x * f, 100) * waves(y * f, 80) *
@@ -264,7 +265,7 @@ TEST(PropagateFar, the_axis_of_a_round_opening) {
     for (const double z : {20_mm, 61_mm, 0.2_m, 1_m, 10_m}) {
         const double r = std::hypot(z, radius);
         const Complex right = unit_phasor(z / wavelength) - z / r * unit_phasor(r / wavelength);
-        const Field axis = at(disc, z, {1, 1, 1_um, 1_um, 0, 0});
+        const Field axis = propagate_to(disc, z, {1, 1, 1_um, 1_um, 0, 0});
         EXPECT_LT(std::abs(Complex(axis.samples(0, 0)) - right), 1e-3 * std::abs(right) + 2e-4) << z;
     }
 }
@@ -281,7 +282,7 @@ TEST(PropagateFar, a_round_opening_makes_airys_pattern) {
         return Complex(inside / 256.0);
     });
     const Grid output{120, 120, 2_mm, 2_mm, 0, 0};
-    EXPECT_LT(relative_error(at(disc, z, output),
+    EXPECT_LT(relative_error(propagate_to(disc, z, output),
                              [&](double x, double y) {
                                  const double r = std::hypot(x, y, z);
                                  const double v = 2 * pi * radius * std::hypot(x, y) / (wavelength * r);
@@ -301,17 +302,17 @@ TEST(Propagate, there_and_back_through_a_window_that_holds_all_light) {
         // Packets diffract by 0.2 + 0.2 cycles per pitch at the most.
         const double wide = plane.size_x() + 2 * 0.45 / 2_um * wavelength * z;
         const auto n = std::size_t(std::ceil(wide / 1.1_um));
-        const Grid whole{std::min<std::size_t>(n, 1500),
-                         std::min<std::size_t>(n, 1500),
-                         std::max(1.1_um, wide / 1500),
-                         std::max(1.1_um, wide / 1500),
-                         0,
-                         0};
-        const Field there = at(field, z, whole);
-        EXPECT_NEAR(energy(there) / energy(field), 1, 1e-4) << z;
+        const Grid window{std::min<std::size_t>(n, 1500),
+                          std::min<std::size_t>(n, 1500),
+                          std::max(1.1_um, wide / 1500),
+                          std::max(1.1_um, wide / 1500),
+                          0,
+                          0};
+        const Field propagated = propagate_to(field, z, window);
+        EXPECT_NEAR(energy(propagated) / energy(field), 1, 1e-4) << z;
         // The pitch of a larger window may be too coarse for the wave's curvature.
         if (n < 1500) {
-            EXPECT_LT(difference(at(there, -z, plane), field), 1e-3) << z;
+            EXPECT_LT(difference(propagate_to(propagated, -z, plane), field), 1e-3) << z;
         }
     }
 }
@@ -322,8 +323,9 @@ TEST(Propagate, is_reciprocal) {
     for (const double z : {5_mm, 30_mm, 2_m}) {
         Field one({plane, 532_nm}), two({other, 532_nm});
         one.samples(13, 70) = two.samples(51, 8) = 1;
-        const Complex there = at(one, z, other).samples(51, 8), back = at(two, z, plane).samples(13, 70);
-        const Complex ratio = there / (1_um * 1.5_um) / (back / (2_um * 1_um));
+        const Complex propagated = propagate_to(one, z, other).samples(51, 8),
+                      back = propagate_to(two, z, plane).samples(13, 70);
+        const Complex ratio = propagated / (1_um * 1.5_um) / (back / (2_um * 1_um));
         EXPECT_NEAR(std::abs(ratio - 1.0), 0, 1e-3) << z;
     }
 }
@@ -333,15 +335,15 @@ TEST(Propagate, windows_are_parts_of_larger_ones_at_any_pitch) {
     const Field field = noise(plane, 532_nm);
     for (const double z : {0.2_mm, 3_mm, 50_mm, 1_m}) {
         const Grid large{400, 300, 1_um, 1_um, 10_um, 0};
-        const Field all = at(field, z, large);
+        const Field all = propagate_to(field, z, large);
         const Grid cut = part(large, {250, 31, 90, 80});
-        EXPECT_LT(difference(at(field, z, cut), all), 1e-3) << z;
+        EXPECT_LT(difference(propagate_to(field, z, cut), all), 1e-3) << z;
         Grid coarse = part(large, {20, 40, 61, 31});
         coarse.pitch_x *= 5;
         coarse.pitch_y *= 7;
         coarse.center_x = large.x(20 + 5 * 30);
         coarse.center_y = large.y(40 + 7 * 15);
-        EXPECT_LT(difference(at(field, z, coarse), all), 1e-3) << z;
+        EXPECT_LT(difference(propagate_to(field, z, coarse), all), 1e-3) << z;
     }
 }
 
@@ -354,7 +356,7 @@ TEST(Propagate, tiles_equal_single_points) {
     options.output = output;
     const PropagationMethod method = propagation_method(field.grid(), 1_m, options);
     EXPECT_GT(method.tiles_x, 1u);
-    EXPECT_LT(error_against(sum_of_spherical_waves, field, 1_m, at(field, 1_m, output)), 1e-3);
+    EXPECT_LT(error_against(sum_of_spherical_waves, field, 1_m, propagate_to(field, 1_m, output)), 1e-3);
 }
 
 // The light cone of 64 samples of 1 um is 0.6 mm wide; the output of 4 mm is dark outside.
@@ -363,19 +365,20 @@ TEST(Propagate, a_window_wider_than_the_cone_of_light_is_dark_beside_it) {
     const Grid output{500, 400, 8_um, 8_um, 10_um, 0};
     PropagateOptions options;
     options.output = output;
-    Field there({output, 532_nm});
-    for (auto& sample : there.samples.elements()) sample = 7;
-    hogel::propagate(field, 1_mm, there, options);
-    EXPECT_EQ(there.samples(0, 0), 0.0f);
-    EXPECT_EQ(there.samples(200, 499), 0.0f);
-    EXPECT_EQ(there.samples(399, 250), 0.0f);
-    EXPECT_LT(difference(at(field, 1_mm, part(output, {200, 150, 100, 100})), there), 1e-3);
+    Field propagated({output, 532_nm});
+    for (auto& sample : propagated.samples.elements()) sample = 7;
+    hogel::propagate(field, 1_mm, propagated, options);
+    EXPECT_EQ(propagated.samples(0, 0), 0.0f);
+    EXPECT_EQ(propagated.samples(200, 499), 0.0f);
+    EXPECT_EQ(propagated.samples(399, 250), 0.0f);
+    EXPECT_LT(difference(propagate_to(field, 1_mm, part(output, {200, 150, 100, 100})), propagated), 1e-3);
     // Samples of 8 um are finer than the interference of light of a field of 64 um.
-    EXPECT_NEAR(energy(there) / energy(field), 1, 1e-2);
+    EXPECT_NEAR(energy(propagated) / energy(field), 1, 1e-2);
     // The output is outside the cone on one side, and so far away that whole tiles are dark.
     Grid aside = output;
     aside.center_x = 2_mm;
-    EXPECT_LT(difference(at(field, 1_mm, part(aside, {0, 150, 40, 100})), at(field, 1_mm, aside)), 1e-3);
+    EXPECT_LT(difference(propagate_to(field, 1_mm, part(aside, {0, 150, 40, 100})), propagate_to(field, 1_mm, aside)),
+              1e-3);
     options.output = Grid{4001, 2, 1_mm, 8_um, 0, 0};
     EXPECT_LT(propagation_method(field.grid(), 1_mm, options).bytes, 1e6);
 }
@@ -386,7 +389,7 @@ TEST(Propagate, by_nothing_is_the_same_field_or_its_interpolation) {
     const Field same = hogel::propagate(field, 0);
     EXPECT_TRUE(std::ranges::equal(same.samples.elements(), field.samples.elements()));
     Grid inner = part(plane, {10, 10, 40, 30});
-    EXPECT_LT(difference(at(field, 0, inner), field), 1e-3);
+    EXPECT_LT(difference(propagate_to(field, 0, inner), field), 1e-3);
 }
 
 TEST(Propagate, is_the_same_for_any_number_of_threads_and_in_a_file) {
@@ -434,8 +437,8 @@ TEST(Propagate, goes_on_where_a_sink_was_interrupted) {
     PropagateOptions options;
     options.output = Grid{300, 300, 0.2_mm, 0.2_mm, 3_mm, 0};
     ASSERT_GT(propagation_method(field.grid(), 1_m, options).tiles_x, 1u);
-    const Field whole = hogel::propagate(field, 1_m, options);
-    Field result(whole.grid());
+    const Field expected = hogel::propagate(field, 1_m, options);
+    Field result(expected.grid());
     std::vector<Region> had;
     const auto run = [&](const FieldSource& source, std::size_t writes) {
         Interrupted sink(result, had, writes);
@@ -446,7 +449,7 @@ TEST(Propagate, goes_on_where_a_sink_was_interrupted) {
         EXPECT_GE(had.size(), before + 10);
     }
     run(field, SIZE_MAX);
-    EXPECT_TRUE(std::ranges::equal(result.samples.elements(), whole.samples.elements()));
+    EXPECT_TRUE(std::ranges::equal(result.samples.elements(), expected.samples.elements()));
     // Complete regions are not computed again: the field cannot be read.
     class Unreadable final : public FieldSource {
       public:
@@ -464,8 +467,8 @@ TEST(Propagate, goes_on_beside_the_cone_of_light) {
     const Field field = packets({32, 30, 1_um, 1_um, 0, 0}, 532_nm);
     PropagateOptions options;
     options.output = Grid{500, 400, 8_um, 8_um, 0.3_mm, 0};
-    const Field whole = hogel::propagate(field, 1_mm, options);
-    Field result(whole.grid());
+    const Field expected = hogel::propagate(field, 1_mm, options);
+    Field result(expected.grid());
     std::vector<Region> had;
     for (const std::size_t writes : {std::size_t{2}, SIZE_MAX}) {
         Interrupted sink(result, had, writes);
@@ -475,10 +478,10 @@ TEST(Propagate, goes_on_beside_the_cone_of_light) {
             EXPECT_EQ(error.code(), ErrorCode::cancelled);
         }
     }
-    EXPECT_TRUE(std::ranges::equal(result.samples.elements(), whole.samples.elements()));
+    EXPECT_TRUE(std::ranges::equal(result.samples.elements(), expected.samples.elements()));
     std::size_t samples = 0;
     for (const Region& region : had) samples += region.samples();
-    EXPECT_EQ(samples, whole.samples.size());
+    EXPECT_EQ(samples, expected.samples.size());
 }
 
 TEST(Propagate, says_how_it_will) {
@@ -497,7 +500,7 @@ TEST(Propagate, refuses_what_it_cannot_do) {
     const Field field({{64, 64, 1_um, 1_um, 0, 0}, 532_nm});
     const auto message = [&](double z, const Grid& output) -> std::string {
         try {
-            at(field, z, output);
+            propagate_to(field, z, output);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::usage);
             return error.what();
