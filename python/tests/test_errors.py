@@ -90,7 +90,7 @@ class Errors(InFolder):
 
     def test_a_pitch_that_is_not_given_diffracts_the_field_of_view(self):
         wide = hogel.Scene.load("sphere").render(hogels=4, directions=8, size="0.2mm", fov=40 * deg)
-        with self.assertWarnsRegex(UserWarning, "^pitch: .*, which diffracts the field of view; 1.5625 um, the default, does not$"):
+        with self.assertWarnsRegex(UserWarning, "^pitch: .*, as the field of view needs; the default, 1.5625 um, is too coarse$"):
             made = wide.hologram(wavelength="532nm")
         self.assertLess(made.grid.pitch_x, 0.532e-6 / (2 * np.sin(20 * deg)))
         with self.assertRaisesRegex(hogel.UsageError, "pitch"):

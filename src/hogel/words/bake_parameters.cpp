@@ -4,10 +4,11 @@
 namespace hogel {
 
 void BakeParameters::declare(Parameters& parameters) {
-    parameters.count("--rays", options.rays, "From every vertex, for reflected light");
-    parameters.count("--bounces", options.bounces, "How often light is reflected");
-    parameters.count("--tessellate", options.tessellation, "Parts into which the sides of triangles are cut");
-    parameters.positive_length("--size", place.size, "Width of the hologram that the scene is fitted to");
+    parameters.count("--rays", options.rays, "Number of rays from every vertex, for reflected light");
+    parameters.count("--bounces", options.bounces, "Number of reflections of light");
+    parameters.count("--tessellate", options.tessellation,
+                     "Number of parts into which each side of a triangle is divided");
+    parameters.positive_length("--size", place.size, "Width of the hologram to which the scene is fitted");
     place.scene.declare(parameters);
 }
 

@@ -87,7 +87,7 @@ TEST(WaveCameraParameters, names_of_the_library_are_those_of_the_same_model) {
     EXPECT_TRUE(std::holds_alternative<SpeckleFreeCamera>(WaveCameraParameters{.speckle = "none"}.model()));
 }
 
-// What excludes each other, for every source of light.
+// Options that exclude each other, for every source of light.
 TEST(WaveCameraParameters, errors_name_the_parameter) {
     using enum PhotographSource;
     const auto refused = [](WaveCameraParameters parameters, PhotographSource source) {

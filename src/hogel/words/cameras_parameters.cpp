@@ -15,12 +15,12 @@ LightFieldGrid CamerasParameters::grid() const {
 }
 
 void CamerasParameters::declare(Parameters& parameters) {
-    parameters.positive_length("--size", size,
-                               "Width of the hologram in the scene that is to be rendered; import scales it");
-    parameters.counts("--hogels", hogels, "Columns and rows of hogels, the pixels of each picture");
+    parameters.positive_length("--size", size, "Width of the hologram in the scene to be rendered; import scales it");
+    parameters.counts("--hogels", hogels, "Columns and rows of hogels, and pixels of each picture");
     parameters.counts("--directions", directions, "Columns and rows of cameras");
-    parameters.angles("--fov", field_of_view, "Full angles that rows and columns of cameras span from the hologram");
-    parameters.positive_length("--distance", distance, "From the cameras to the hologram")
+    parameters.angles("--fov", field_of_view,
+                      "Full angles spanned by rows and columns of cameras, seen from the hologram");
+    parameters.positive_length("--distance", distance, "Distance from the cameras to the hologram")
         .sets_parameter("focal_plane");
 }
 

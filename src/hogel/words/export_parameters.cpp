@@ -10,7 +10,7 @@
 namespace hogel {
 namespace {
 
-// The layout that the name of an output asks for: those of files have endings of their own.
+// Returns the layout for the name of an output. Layouts of single files have extensions of their own.
 std::string layout_for(const std::filesystem::path& output) {
     if (output.extension() == ".npy") return "npy";
     if (output.extension() == ".mat") return "mat";
@@ -49,26 +49,27 @@ void ExportParameters::declare(Parameters& parameters) {
         if (layout.create != nullptr) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
     parameters
         .text("--layout", views.layout, "NAME",
-              "How they are stored (by the ending .npy, .mat or _qs8x6a0.75.png: as that says)" + layouts)
+              "Layout of the stored views; an ending .npy, .mat or _qs8x6a0.75.png of the output selects its own" +
+                  layouts)
         .sets(layout_given)
         .acts_if(is_set);
     parameters
         .choice("--pictures", views.format, {"png", "ppm", "pfm", "exr"}, "FORMAT",
-                "png, ppm (8 to 16 bits), pfm or exr (floating-point numbers; default: as imported, else png)")
+                "Format: png, ppm (8 to 16 bits), pfm or exr (floating point; default: as imported, else png)")
         .no_default()
         .acts_if(is_set);
-    parameters.count("--bits", bits, "Of whole numbers, 8 to 16; png: 8 or 16 (default: as imported, else 8)")
+    parameters.count("--bits", bits, "Bits of whole numbers, 8 to 16; png: 8 or 16 (default: as imported, else 8)")
         .no_default()
         .acts_if(is_set);
     parameters
         .choice("--transfer", transfer, transfer_names(), "NAME",
-                fmt::format("{}: the curve of the stored numbers (default: as imported, else srgb, or linear for "
-                            "floating-point ones)",
+                fmt::format("Transfer curve of the stored numbers: {} (default: as imported, else srgb, or linear for "
+                            "floating point)",
                             fmt::join(transfer_names(), ", ")))
         .no_default()
         .acts_if(is_set);
-    parameters.number("--exposure", views.exposure, "NUMBER", "What linear values are multiplied by").positive();
-    parameters.number("--frame-rate", frame_rate, "NUMBER", "Of films, views a second").positive().acts_if([this] {
+    parameters.number("--exposure", views.exposure, "NUMBER", "Factor for linear values").positive();
+    parameters.number("--frame-rate", frame_rate, "NUMBER", "Views per second of a film").positive().acts_if([this] {
         return is_film;
     });
 }

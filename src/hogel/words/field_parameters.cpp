@@ -12,25 +12,25 @@
 namespace hogel {
 namespace {
 
-// A parameter as errors name it.
+// Returns the name of an option in errors.
 std::string name_in_errors(std::string option) {
     option.erase(0, option.find_first_not_of('-'));
     std::ranges::replace(option, '-', '_');
     return option;
 }
 
-// Whether parameters say what a file's numbers are.
+// Returns whether parameters give the meaning of a file's numbers.
 bool are_described(const FieldParameters& field) {
     return !field.values.empty() || !field.phase_code.empty() || !field.imaginary.empty() || !field.phases.empty();
 }
 
-// Throws where the input is no hologram, or where parameters describe it.
+// Throws if the input is not a hologram, or if parameters describe it.
 void require_hologram(const std::string& name, const FieldParameters& field, const Parameters& table) {
     field.require_described(name);
     std::error_code status;
     if (std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::unknown)
         throw Error(ErrorCode::bad_input,
-                    fmt::format("{}: is neither a hologram nor a field of a format that is read: .npy, .npz, .mat of "
+                    fmt::format("{}: is neither a hologram nor a field in a supported format: .npy, .npz, .mat of "
                                 "MATLAB 5 to 7.3 (save -v7), .ohc, .exr and pictures",
                                 name));
     if (input_kind(name) != InputKind::hologram)
@@ -39,38 +39,38 @@ void require_hologram(const std::string& name, const FieldParameters& field, con
                              "--conjugate", "--pitch", "--wavelength"})
         if (table.given(each))
             throw Error(ErrorCode::usage, name_in_errors(each),
-                        fmt::format("{} is a hologram, which describes itself", name));
+                        fmt::format("{} is a hologram, which contains this; leave it out", name));
 }
 
-// Lengths as messages say them.
+// Returns lengths as in messages.
 std::string short_lengths(const std::vector<double>& lengths) {
     std::vector<std::string> texts;
     for (const double length : lengths) std::erase(texts.emplace_back(format_length(length)), ' ');
     return fmt::format("{}", fmt::join(texts, ","));
 }
 
-// The notes on parameters that were taken where the file says something else.
+// Returns notes on given parameters that contradict the file.
 std::vector<std::string> contradictions(const std::string& name, const FieldParameters& field, const Parameters& table,
-                                        const ExternalFacts& facts, const ExternalField& what) {
+                                        const ExternalFacts& facts, const ExternalField& external) {
     std::vector<std::string> notes;
-    const auto compare = [&](const std::string& option, const std::string& taken, const std::string& said) {
-        if (table.given(option) && !said.empty() && said != taken)
-            notes.push_back(fmt::format("{}: {} {} is taken, but the file says {}", name, option, taken, said));
+    const auto compare = [&](const std::string& option, const std::string& used, const std::string& stored) {
+        if (table.given(option) && !stored.empty() && stored != used)
+            notes.push_back(fmt::format("{}: {} {} is used, but the file says {}", name, option, used, stored));
     };
-    if (facts.pitch_x > 0 && (facts.pitch_x != what.pitch_x || facts.pitch_y != what.pitch_y))
-        compare("--pitch", short_lengths({what.pitch_x}),
+    if (facts.pitch_x > 0 && (facts.pitch_x != external.pitch_x || facts.pitch_y != external.pitch_y))
+        compare("--pitch", short_lengths({external.pitch_x}),
                 short_lengths(facts.pitch_x == facts.pitch_y ? std::vector{facts.pitch_x}
                                                              : std::vector{facts.pitch_x, facts.pitch_y}));
     compare("--wavelength", short_lengths(field.wavelengths), short_lengths(facts.wavelengths));
     compare("--values", field.values, facts.values);
-    if (!facts.phase_code.empty() && what.phase_code && *what.phase_code != parse_phase_code(facts.phase_code))
+    if (!facts.phase_code.empty() && external.phase_code && *external.phase_code != parse_phase_code(facts.phase_code))
         compare(field.code_option, field.phase_code, facts.phase_code);
     return notes;
 }
 
-// Sets the values that say what numbers are to what the file says where they are not given.
+// Sets parameters that are not given and describe the numbers to the values in the file.
 void complete_values(FieldParameters& field, const Parameters& table, const ExternalFacts& facts,
-                     const ExternalField& what) {
+                     const ExternalField& external) {
     const bool phases = field.values.empty() || field.values == "phase";
     if (!table.given(field.code_option)) {
         if (phases && !facts.phase_code.empty())
@@ -78,29 +78,29 @@ void complete_values(FieldParameters& field, const Parameters& table, const Exte
         else if (!table.given("values"))
             field.values = facts.values;
     }
-    // Numbers that are not whole have the zero 0 by default.
-    const bool whole = facts.numbers.starts_with("whole");
-    if (!what.imaginary.empty() && !whole && !table.given("zero")) field.zero = "0";
+    // The default of `zero` is 0 for floating-point numbers.
+    const bool is_whole = facts.numbers.starts_with("whole");
+    if (!external.imaginary.empty() && !is_whole && !table.given("zero")) field.zero = "0";
 }
 
-// Sets the pitch and the wavelengths where they are not given.
+// Sets the pitch and the wavelengths from the file, unless they are given.
 void complete_sampling(FieldParameters& field, const std::string& name, const Parameters& table,
-                       const ExternalFacts& facts, ExternalField& what) {
+                       const ExternalFacts& facts, ExternalField& external) {
     const std::string why = facts.complaint.empty() ? "" : fmt::format(": {}", facts.complaint);
     if (table.given("pitch")) {
-        what.pitch_x = what.pitch_y = field.pitch;
+        external.pitch_x = external.pitch_y = field.pitch;
     } else if (facts.pitch_x > 0 && facts.pitch_y > 0) {
-        what.pitch_x = facts.pitch_x;
-        what.pitch_y = facts.pitch_y;
+        external.pitch_x = facts.pitch_x;
+        external.pitch_y = facts.pitch_y;
         field.pitch = facts.pitch_x == facts.pitch_y ? facts.pitch_x : 0;
     } else {
         throw Error(ErrorCode::usage, "pitch",
-                    fmt::format("{} does not say how far its samples are apart{}", name, why));
+                    fmt::format("{} does not contain the pitch of its samples{}", name, why));
     }
     if (!table.given("wavelength")) {
         if (facts.wavelengths.empty())
             throw Error(ErrorCode::usage, "wavelength",
-                        fmt::format("{} does not say of which light it is{}", name, why));
+                        fmt::format("{} does not contain its wavelengths{}", name, why));
         field.wavelengths = facts.wavelengths;
     }
     const std::size_t count = field.wavelengths.size();
@@ -114,7 +114,7 @@ void complete_sampling(FieldParameters& field, const std::string& name, const Pa
 
 OrderSelection selection_of(const FieldParameters& field) {
     using Which = OrderSelection::Which;
-    if (field.aperture < 0) throw Error(ErrorCode::usage, "aperture", "a positive radius was expected");
+    if (field.aperture < 0) throw Error(ErrorCode::usage, "aperture", "expected a positive radius");
     OrderSelection selection;
     selection.without_mean = field.values == "intensity";
     selection.reference_source = field.reference_source;
@@ -138,13 +138,13 @@ OrderSelection selection_of(const FieldParameters& field) {
     return selection;
 }
 
-// Cuts the order out of opened fields and makes the image behind a lens, as the parameters say.
+// Selects the diffraction order of opened fields and computes the image behind a lens, as the parameters specify.
 void make_images(const FieldParameters& field, OpenedFields& opened, const Progress& progress) {
     const bool image = field.reconstruct != "none";
     if (image != field.focal.has_value())
         throw Error(ErrorCode::usage, "focal",
                     image ? fmt::format("reconstruct {} needs a focal length or distance", field.reconstruct)
-                          : "a focal length is that of a reconstruction; give reconstruct, too");
+                          : "needs a reconstruction; add reconstruct");
     const OrderSelection selection = selection_of(field);
     const bool select =
         !field.order.empty() || field.aperture > 0 || selection.without_mean || selection.reference_source;
@@ -165,12 +165,12 @@ void make_images(const FieldParameters& field, OpenedFields& opened, const Progr
     }
 }
 
-// The help of the parameters that say what a file's numbers are.
+// Returns the help of --values.
 std::string help_of_values(bool brief) {
-    if (brief) return ": amplitude, phase, intensity; of pairs real-imaginary, amplitude-phase";
-    return ", in arrays and pictures:\namplitude, phase: phases in radians, or as whole numbers in a phase code\n"
-           "intensity: light that a camera recorded; its mean is subtracted\n"
-           "real-imaginary, amplitude-phase: of arrays with two numbers a sample";
+    if (brief) return ": amplitude, phase, intensity; for pairs real-imaginary, amplitude-phase";
+    return " in arrays and pictures:\namplitude, phase: phases in radians, or as whole numbers in a phase code\n"
+           "intensity: recorded by a camera; its mean is subtracted\n"
+           "real-imaginary, amplitude-phase: for arrays with two numbers per sample";
 }
 
 std::string help_of_codes(bool brief) {
@@ -186,51 +186,50 @@ void FieldParameters::declare(Parameters& parameters, bool sampling, bool brief)
     parameters.group(brief ? "Fields of other programs (see 'hogel help photo')" : "Fields of other programs",
                      [this] { return is_opened; });
     if (sampling) {
-        parameters.positive_length("--pitch", pitch, "Of another program's samples")
-            .default_text("what the file says")
-            .acts_if([this] { return pitch > 0; });  // one number says nothing of two
-        parameters.wavelengths(wavelengths).default_text("what the file says");
+        parameters.positive_length("--pitch", pitch, "Pitch of the samples of another program's field")
+            .default_text("from the file")
+            .acts_if([this] { return pitch > 0; });  // not if the two pitches differ
+        parameters.wavelengths(wavelengths).default_text("from the file");
     }
     parameters.choice("--values", values, {"amplitude", "phase", "intensity", "real-imaginary", "amplitude-phase"},
-                      "KIND", "What real numbers are" + help_of_values(brief));
-    parameters.text(code_option, phase_code, "CODE", "How numbers stand for phases" + help_of_codes(brief));
-    parameters.text("--imaginary", imaginary, "P", "Picture of imaginary parts; the input has the real ones");
-    parameters.text("--phases", phases, "P", "Picture of phases; the input has the amplitudes");
+                      "KIND", "Meaning of real numbers" + help_of_values(brief));
+    parameters.text(code_option, phase_code, "CODE", "Encoding of phases as numbers" + help_of_codes(brief));
+    parameters.text("--imaginary", imaginary, "P", "Picture of the imaginary parts; the input has the real parts");
+    parameters.text("--phases", phases, "P", "Picture of the phases; the input has the amplitudes");
     parameters
         .text("--zero", zero, "LEVEL|median",
-              "Level of 0 in pictures of real and imaginary parts; median: that of each")
+              "Level that stands for 0 in pictures of real and imaginary parts; median: the median of each picture")
         .acts_if([this] { return !imaginary.empty(); });
-    parameters.text("--variable", variable, "NAME", "Array of a file that has several, or two: re,im");
-    parameters.flag("--conjugate", conjugate, "Its waves go as e^(+iwt)");
+    parameters.text("--variable", variable, "NAME", "Name of an array in a file with several; two names: re,im");
+    parameters.flag("--conjugate", conjugate, "The field has the time dependence e^(+iwt)");
 }
 
 void FieldParameters::declare_reconstruction(Parameters& parameters) {
     parameters.group("Reconstruction");
     parameters.text("--order", order, "0|+1|-1|FX,FY",
-                    "Diffraction order that is the object's, cut out and moved to the middle of the spectrum:\n"
+                    "Diffraction order of the object, cut out and moved to the middle of the spectrum:\n"
                     "+1, -1: the brightest to the right or left of frequency zero\n"
-                    "FX,FY: about this frequency, cycles per sample to the right and upwards");
+                    "FX,FY: the order at this frequency, cycles per sample to the right and upwards");
     parameters
         .number("--aperture", aperture, "CYCLES",
-                "Radius of the opening around the order, cycles per sample (default: half its distance from 0)")
+                "Radius of the aperture around the order, cycles per sample (default: half its distance from 0)")
         .no_default();
     parameters.point("--reference-source", reference_source,
-                     "Source of the spherical reference wave; in front of the hologram (z > 0): where it converges");
+                     "Source of the spherical reference wave; with z > 0, in front of the hologram: its focus");
     parameters
         .choice("--reconstruct", reconstruct, {"none", "fourier", "fresnel"}, "none|fourier|fresnel",
-                "What stands between the hologram and its image, which is then in the plane of depth 0:\n"
-                "fourier: a lens, at its focal length --focal from both\n"
-                "fresnel: the distance --focal, by one Fourier transform")
+                "Optics between the hologram and its image, which is then in the plane of depth 0:\n"
+                "fourier: a lens of focal length --focal, at that distance from both\n"
+                "fresnel: free space of length --focal, by one Fourier transform")
         .no_default();
-    parameters.length("--focal", focal, "Focal length of that lens, or that distance");
+    parameters.length("--focal", focal, "Focal length of the lens (fourier), or distance (fresnel)");
 }
 
 bool FieldParameters::is_external(const std::string& name) const {
     std::error_code status;
     if (!std::filesystem::is_regular_file(name, status)) return false;
     const bool described = are_described(*this);
-    // An array of four axes can be a light field or a field of several colours: who says what its numbers are means the
-    // latter.
+    // An array of four axes is a light field or a field of several colours: the latter if parameters describe it.
     if (!described && is_view_set(name)) return false;
     return is_external_field(name) || (described && file_kind(name) == FileKind::picture);
 }
@@ -243,29 +242,30 @@ void FieldParameters::require_described(const std::string& name) const {
     std::error_code status;
     if (!is_external(name) && std::filesystem::is_regular_file(name, status) && file_kind(name) == FileKind::picture)
         throw Error(ErrorCode::usage, name_in_errors(code_option) + ", values, imaginary, phases",
-                    fmt::format("{} is a picture; one of these must say what its numbers are", name));
+                    fmt::format("{} is a picture; give the meaning of its numbers by one of these", name));
 }
 
 ExternalField FieldParameters::external_field() const {
     using Values = ExternalField::Values;
-    ExternalField what;
-    what.values = values == "phase"             ? Values::phase
-                  : values == "real-imaginary"  ? Values::real_imaginary
-                  : values == "amplitude-phase" ? Values::amplitude_phase
-                  : values.empty()              ? Values::complex
-                                                : Values::amplitude;
-    what.phase_code = own_code;
-    if (!own_code && !phase_code.empty()) what.phase_code = parse_phase_code(phase_code);
-    if (what.phase_code && values.empty() && phases.empty()) what.values = Values::phase;
-    what.imaginary = imaginary;
-    what.phases = phases;
+    ExternalField external;
+    external.values = values == "phase"             ? Values::phase
+                      : values == "real-imaginary"  ? Values::real_imaginary
+                      : values == "amplitude-phase" ? Values::amplitude_phase
+                      : values.empty()              ? Values::complex
+                                                    : Values::amplitude;
+    external.phase_code = own_code;
+    if (!own_code && !phase_code.empty()) external.phase_code = parse_phase_code(phase_code);
+    if (external.phase_code && values.empty() && phases.empty()) external.values = Values::phase;
+    external.imaginary = imaginary;
+    external.phases = phases;
     if (zero != "median") {
-        what.zero = parse_number(zero);
-        if (!what.zero) throw Error(ErrorCode::usage, "zero", fmt::format("'{}' is neither median nor a number", zero));
+        external.zero = parse_number(zero);
+        if (!external.zero)
+            throw Error(ErrorCode::usage, "zero", fmt::format("'{}' is neither median nor a number", zero));
     }
-    what.variable = variable;
-    what.conjugate = conjugate;
-    return what;
+    external.variable = variable;
+    external.conjugate = conjugate;
+    return external;
 }
 
 OpenedFields FieldParameters::open(const std::string& name, const Parameters& table) {
@@ -274,17 +274,17 @@ OpenedFields FieldParameters::open(const std::string& name, const Parameters& ta
         return {open_hologram(name), {}};
     }
     return with_renamed_parameters({{"phase_code", name_in_errors(code_option)}}, [&] {
-        ExternalField what = external_field();
-        const ExternalFacts facts = external_facts(name, what);
-        if (!what.variable.empty() && facts.format != "npz" && facts.format != "mat" && facts.format != "exr")
+        ExternalField external = external_field();
+        const ExternalFacts facts = external_facts(name, external);
+        if (!external.variable.empty() && facts.format != "npz" && facts.format != "mat" && facts.format != "exr")
             throw Error(ErrorCode::usage, "variable", fmt::format("{} has no variables with names", name));
         is_opened = true;
-        complete_sampling(*this, name, table, facts, what);
-        OpenedFields opened{{}, contradictions(name, *this, table, facts, what)};
-        complete_values(*this, table, facts, what);
-        for (what.colour = 0; what.colour < facts.colours; ++what.colour) {
-            what.wavelength = wavelengths[what.colour];
-            opened.fields.push_back(open_external_field(name, what));
+        complete_sampling(*this, name, table, facts, external);
+        OpenedFields opened{{}, contradictions(name, *this, table, facts, external)};
+        complete_values(*this, table, facts, external);
+        for (external.colour = 0; external.colour < facts.colours; ++external.colour) {
+            external.wavelength = wavelengths[external.colour];
+            opened.fields.push_back(open_external_field(name, external));
         }
         return opened;
     });

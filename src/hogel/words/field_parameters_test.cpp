@@ -14,7 +14,7 @@ namespace {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-// The parameters of a field with the values of texts.
+// Parameters of a field, parsed from texts.
 struct AskedField {
     FieldParameters field;
     Parameters table;

@@ -15,7 +15,7 @@
 namespace hogel {
 namespace {
 
-// The names of averages of lobes, and of phases.
+// Names of the averages of lobes, and of phases.
 const std::vector<std::string> average_names{"radiance", "amplitude"};
 const std::vector<std::string> phase_names{"random", "fixed", "designed"};
 
@@ -37,45 +37,45 @@ void declare_hologram(Parameters& parameters, HologramParameters& options, const
     options.declare_pitch(parameters).acts_if(is_sampled);
     parameters
         .positive_length("--line-pitch", options.lines,
-                         "Distance of the lines of --method lines or basis-lines (default: as far apart as samples)")
+                         "Pitch of the lines of --method lines or basis-lines (default: the sample pitch)")
         .no_default()
         .acts_if([&options] { return options.made_by && line_pitch(*options.made_by).has_value(); });
     parameters.choice("--method", options.method, names, "NAME", help).acts_if(is_made);
     parameters
         .choice("--phase", options.phase, phase_names, "NAME",
-                "Phases of each hogel's directions\n"
+                "Phases of the directions of each hogel:\n"
                 "random: independent everywhere (default)\n"
-                "fixed: the same in all hogels (basis: default; olas: none, a smooth surface)\n"
-                "designed: the same in all hogels, for a fringe of flat modulus")
+                "fixed: the same in all hogels (default of basis); with olas zero, as of a smooth surface\n"
+                "designed: the same in all hogels, for a fringe of uniform modulus")
         .acts_if(has_phases);
     parameters
         .choice("--lobes", options.average, average_names, "radiance|amplitude",
-                "What a hogel's lobes take from the directions that they light: their mean radiance, or "
-                "(always with basis) mean amplitude")
+                "Strength of a hogel's lobe: the mean radiance of the directions that it covers, or "
+                "(always with basis) their mean amplitude")
         .acts_if(has_lobes);
     parameters
         .text("--basis", options.basis, "NAME",
-              fmt::format("Transform of the directions whose basis fringes are summed: pieces (one a "
+              fmt::format("Transform of the directions that defines the basis fringes: pieces (one fringe per "
                           "direction), {} (default: the file's, or {})",
                           fmt::join(transform_names(), ", "), defaults.basis))
         .acts_if(is_basis);
     parameters
         .number("--tolerance", options.tolerance, "0..1",
-                "Share of a hogel's amplitude that left-out basis fringes may carry")
+                "Maximum fraction of a hogel's amplitude in basis fringes that are left out")
         .range(0, 1)
         .acts_if(is_basis);
     if (Parameter* const seed = parameters.look_up("seed")) seed->acts_if([&options] { return options.is_seeded; });
 }
 
-// The methods of the table, with a line of help each.
+// Returns the help of --method, one line per method of the table.
 std::string help_of_methods() {
-    std::string help = "How a light field becomes fringes";
+    std::string help = "Method that computes the hologram from the light field:";
     for (const HologramMethodInfo& method : hologram_methods().rows())
         help += fmt::format("\n{}: {}{}", method.name, method.text, method.needs_depth ? "; needs depth" : "");
     return help;
 }
 
-// Gives a method the options of the command line; refuses those that it does not have.
+// Sets the options of a method; refuses options that it does not support.
 struct Adjust {
     const HologramParameters& choices;
 
@@ -98,11 +98,12 @@ struct Adjust {
         if (method.line_pitch) method.line_pitch = choices.lines;
     }
     void operator()(PhaseAdded&) const {
-        if (!choices.phase.empty()) refuse("is not for the method phase-added, whose phases are those of the points");
+        if (!choices.phase.empty())
+            refuse("does not apply to the method phase-added, which uses the phases of the points");
     }
     void operator()(OverlapAdd& method) const {
         const Phases chosen = phases(Phases::random);
-        if (chosen == Phases::designed) refuse("the method olas has phases that are random or fixed, not designed");
+        if (chosen == Phases::designed) refuse("the method olas supports random or fixed phases, not designed");
         method.phases = chosen == Phases::fixed ? PointPhases::fixed : PointPhases::random;
     }
     void operator()(OwnMethod&) const {}
@@ -154,14 +155,14 @@ HologramRequest HologramParameters::request(std::span<const LightFieldGrid> face
 
 std::string HologramParameters::note_about_pitch(const HologramRequest& request) const {
     if (request.pitch == pitch) return "";
-    return fmt::format("pitch: {}, which diffracts the field of view; {}, the default, does not",
+    return fmt::format("pitch: {}, as the field of view needs; the default, {}, is too coarse",
                        format_length(request.pitch), format_length(pitch));
 }
 
 void HologramParameters::resolve(const HologramRequest& request, const LightFieldGrid& front) {
     is_made = true;
     made_by = request.method;
-    // The samples divide a hogel evenly, so they may be a little farther apart or closer than was asked.
+    // A hogel has a whole number of samples, so the pitch may differ slightly from the given one.
     const double columns = std::max(1.0, std::round(front.pitch / request.pitch)), effective = front.pitch / columns;
     if (std::abs(effective - pitch) > 1e-9 * pitch) pitch = effective;
     if (const std::optional<double> apart = line_pitch(request.method)) lines = *apart > 0 ? *apart : effective;
@@ -180,7 +181,7 @@ void HologramParameters::resolve(const FieldParameters& field) {
 Parameter& HologramParameters::declare_pitch(Parameters& parameters) {
     return parameters
         .positive_length("--pitch", pitch,
-                         "Distance of samples, rounded to divide a hogel; less by default where the field of view "
+                         "Sample pitch, rounded to divide a hogel; the default is reduced if the field of view "
                          "needs it")
         .sets(pitch_given);
 }
@@ -188,11 +189,11 @@ Parameter& HologramParameters::declare_pitch(Parameters& parameters) {
 SceneHologramRequest HologramParameters::scene_request(std::uint64_t seed, const LightFieldParameters& place) const {
     const SceneHologramMethod& direct = scene_hologram_methods().find(method);
     if (place.fronts_only)
-        throw Error(ErrorCode::usage, "cull_back_faces", fmt::format("method {} cannot", direct.name));
+        throw Error(ErrorCode::usage, "cull_back_faces", fmt::format("is not supported by the method {}", direct.name));
     const double width = place.size;
     const double height = width * static_cast<double>(place.hogels.rows) / static_cast<double>(place.hogels.columns);
     if (!(width >= pitch && height >= pitch))
-        throw Error(ErrorCode::usage, "size, pitch", "the hologram must hold samples");
+        throw Error(ErrorCode::usage, "size, pitch", "the hologram must have at least one sample");
     const Grid plane{static_cast<std::size_t>(std::lround(width / pitch)),
                      static_cast<std::size_t>(std::lround(height / pitch)),
                      pitch,
@@ -228,15 +229,19 @@ void HologramParameters::declare(Parameters& parameters) {
 
 void HologramParameters::declare_with_scene_methods(Parameters& parameters) {
     std::vector<std::string> names = hologram_methods().names();
-    std::string help = help_of_methods() + "\nWithout a light field, from a scene:";
+    std::string help = help_of_methods() + "\nDirectly from a scene, without a light field:";
     for (const SceneHologramMethod& direct : scene_hologram_methods().rows()) {
         names.emplace_back(direct.name);
         help += fmt::format("\n{}: {}", direct.name, direct.text);
     }
     declare_hologram(parameters, *this, names, help);
-    parameters.positive_length("--spacing", spacing, "Of points on surfaces and along edges; height of hpo lines")
+    parameters
+        .positive_length("--spacing", spacing,
+                         "Spacing of points on surfaces and along edges, and of the lines of points-hpo")
         .acts_if([this] { return has_spacing; });
-    parameters.count("--planes", planes, "Depth planes of fresnel and planes").acts_if([this] { return has_planes; });
+    parameters.count("--planes", planes, "Number of depth planes of the methods fresnel and planes").acts_if([this] {
+        return has_planes;
+    });
 }
 
 }  // namespace hogel

@@ -13,70 +13,70 @@ void declare_views(Parameters& parameters, ImportParameters& options) {
     std::string layouts;
     for (const ViewLayout& layout : view_layouts().rows()) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
     parameters
-        .text("--layout", options.views.layout, "NAME", "How they are stored (default: what is recognised)" + layouts)
+        .text("--layout", options.views.layout, "NAME",
+              "Layout of the stored views (default: recognised from the files)" + layouts)
         .no_default();
     parameters
         .counts("--views", options.counts,
-                "Columns and rows of views, where one number counts them all (default: a square; of a film one row)")
+                "Columns and rows of views that are numbered consecutively (default: a square; for a film one row)")
         .no_default();
-    parameters.counts("--middle", options.middle, "Take these columns and rows of views in the middle alone")
+    parameters.counts("--middle", options.middle, "Import only this many columns and rows of views, in the middle")
         .no_default();
     parameters
         .choice("--column", options.column, {"first", "second"}, "first|second",
-                "Which of the two numbers in the names of files, or axes of views, is the column (default: what the "
-                "parallax says)")
+                "Which of the two numbers in file names, or of the two axes of views, is the column (default: found "
+                "from the parallax)")
         .no_default()
         .acts_if([&views = options.views] { return views.layout == "rows-columns" || views.layout == "mat"; });
     parameters.choice("--mirror", options.mirror, {"none", "columns", "rows", "both"}, "WHICH",
-                      "none, columns, rows or both: run the other way than the layout says");
+                      "Reverse the order of columns, rows or both (default: none, the order of the layout)");
     parameters
         .choice("--projection", options.projection, {"cameras", "orthographic"}, "NAME",
-                "cameras, or orthographic views along one direction each (default: as the layout says)")
+                "Views of cameras, or orthographic: each along one direction (default: from the layout)")
         .no_default();
     parameters
         .choice("--transfer", options.transfer, transfer_names(), "NAME",
-                fmt::format("{}: the curve of the stored numbers (default: srgb, or linear for floating-point ones)",
+                fmt::format("Transfer curve of the stored numbers: {} (default: srgb, or linear for floating point)",
                             fmt::join(transfer_names(), ", ")))
         .no_default();
 }
 
 void declare_geometry(Parameters& parameters, ViewImportOptions& views) {
     parameters.group("Geometry");
-    parameters
-        .positive_length("--size", views.size, "Width of the hologram, to which the set is scaled (default: 20mm)")
+    parameters.positive_length("--size", views.size, "Width of the hologram; the set is scaled to it (default: 20mm)")
         .no_default();
     parameters.positive_length("--distance", views.distance,
-                               "From the cameras to the hologram (default: as the set says, else 300mm)");
+                               "Distance from the cameras to the hologram (default: from the set, else 300mm)");
     parameters.positive_length(
         "--spacing", views.spacing,
-        "Between neighbouring cameras, at the hologram's scale (default: as the set says, else by --fov)");
+        "Distance of neighbouring cameras, at the hologram's scale (default: from the set, else from --fov)");
     parameters
         .angle("--fov", views.field_of_view,
-               "Full angle that a row of views spans, where the set does not say it (default: 16deg)")
+               "Full angle spanned by a row of views, if the set does not contain it (default: 16deg)")
         .excludes("--spacing");
     parameters
         .number("--disparity", views.disparity, "PIXELS",
-                "By how much the plane that is to be the hologram moves left from a view to the one on its right; the "
-                "views are sheared and cropped (default: 0, the plane on which they agree)")
+                "Disparity of the hologram plane: its shift to the left from a view to the next on the right; the "
+                "views are sheared and cropped (default: 0, the plane without disparity)")
         .no_default();
 }
 
 void declare_disparity(Parameters& parameters, ViewImportOptions& views) {
-    parameters.group("Depth, and views between views");
+    parameters.group("Depth and interpolated views");
     parameters
         .count("--densify", views.densify,
-               "Interpolate N - 1 views between neighbours, by the disparity or depth that comes with the set")
+               "Interpolate N - 1 views between neighbours, from the disparity or depth of the set")
         .no_default();
     parameters
         .number("--depth-scale", views.depth_scale, "N",
-                "How many of the whole numbers in PNG maps are a metre of depth, or a pixel of disparity: 1000 for "
-                "millimetres; 0 is not known")
+                "Value in PNG maps for one metre of depth, or one pixel of disparity: 1000 for millimetres; the value "
+                "0 means unknown")
         .positive()
         .no_default()
         .acts_if([&views] { return (views.densify > 1 || views.with_depth) && !views.estimate_disparity; });
     parameters
         .flag("--estimate-disparity", views.estimate_disparity,
-              "Where no map comes with the set, estimate the disparity from the views")
+              "Estimate the disparity from the views, if the set has no map")
         .acts_if([&views] { return views.estimate_disparity; });
 }
 

@@ -21,15 +21,15 @@ LightFieldGrid LightFieldParameters::grid() const {
     grid.pitch = size / static_cast<double>(hogels.columns);
     grid.directions_u = directions.columns;
     grid.directions_v = directions.rows;
-    // The faces of a hemicube have ranges of their own, but for the height of a single row of directions.
+    // The faces of a hemicube define their ranges, except the height of a single row of directions.
     const Angles view = hemicube ? Angles{defaults.field_of_view, defaults.field_of_view} : field_of_view;
     grid.view = hogel::field_of_view(view.across, view.down, toward.across, toward.down);
     if (focal_plane_given) grid.view = FocalPlane{grid.range(), focal_plane};
     if (frequencies > 0) {
-        // As many frequencies j/d as fit into the field of view.
+        // All frequencies j/d within the field of view.
         const double step = frequencies / grid.pitch;
-        const auto reach = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
-        const double across = 2 * reach(field_of_view.across) + 1, down = 2 * reach(field_of_view.down) + 1;
+        const auto max_index = [&](double angle) { return std::floor(std::sin(angle / 2) / step + 1e-9); };
+        const double across = 2 * max_index(field_of_view.across) + 1, down = 2 * max_index(field_of_view.down) + 1;
         grid.directions_u = static_cast<std::size_t>(across);
         grid.directions_v = static_cast<std::size_t>(down);
         grid.view = Frequencies{{0.5 * across * step, 0.5 * down * step}};
@@ -104,7 +104,7 @@ void LightFieldParameters::declare(Parameters& parameters) {
     std::string shadings;
     for (const ShadingInfo& model : shading_models().rows())
         shadings += fmt::format("\n{}: {}", model.name, model.text);
-    parameters.text("--shading", shading, "NAME", "Where light is computed:" + shadings)
+    parameters.text("--shading", shading, "NAME", "Shading model, and where light is computed:" + shadings)
         .knows(shading_models().names())
         .acts_if([this] { return scene.is_lit; });
     parameters.count("--shadow-map", shadow_map, "Texels along a side of a lamp's shadow map").acts_if([this] {
@@ -112,13 +112,13 @@ void LightFieldParameters::declare(Parameters& parameters) {
     });
     parameters
         .number("--cache-spacing", cache_spacing, "F",
-                "Spacing of the points of a surface at which light is computed, in widths of a ray "
-                "there, where it depends on the point (direct, shadowed); 0: anew for each ray")
+                "Spacing of the surface points at which light is computed (direct, shadowed), in widths of a ray "
+                "there; 0: computed for each ray")
         .range(0, 16)
         .acts_if([this] { return is_lit_by_samples; });
     parameters
         .flag("--cull-back-faces", fronts_only,
-              "Show only the front of triangles, the side from which their corners are counterclockwise")
+              "Show only the front of triangles, where their corners are in counterclockwise order")
         .acts_if(when_rendered);
     parameters.counts("--hogels", hogels, "Hogels across and down");
     parameters.counts("--directions", directions, "Directions across and down in each hogel").acts_if([this] {
@@ -126,25 +126,26 @@ void LightFieldParameters::declare(Parameters& parameters) {
     });
     parameters
         .counts("--samples", samples,
-                "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, which "
-                "makes 16")
+                "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, 16 in all")
         .acts_if(when_rendered);
     parameters.positive_length("--size", size, "Width of the hologram");
-    parameters.angles("--fov", field_of_view, "Field of view, the full angle; or across and down")
+    parameters.angles("--fov", field_of_view, "Field of view, full angle; or across and down")
         .sets(field_of_view_given)
         .acts_if(when_rendered);
     parameters
         .angles("--toward", toward,
-                "Where the middle of the view looks behind the hologram: angles to the right and up")
+                "Direction of the middle of the view, behind the hologram: angles to the right and up")
         .acts_if([this] { return is_rendered && !hemicube && frequencies == 0; });
     parameters
         .number("--front", front, "F",
-                "How much of a mesh file's depth stands in front of the hologram: 0 none, 1 all; -0.1: it "
+                "Fraction of a mesh file's depth in front of the hologram: 0 none, 1 all; with -0.1 it "
                 "begins a tenth of its depth behind it")
         .range(-100, 1)
         .acts_if([this] { return scene.is_file && !as_is; });
     const Parameter& unfitted =
-        parameters.flag("--as-is", as_is, "Take a mesh file where it is, its numbers as metres, z towards the viewer")
+        parameters
+            .flag("--as-is", as_is,
+                  "Do not move or scale a mesh file: its coordinates are metres, z towards the viewer")
             .acts_if([this] { return scene.is_file; });
     parameters.flag("--fit", "Scale and move a mesh file to fill the hologram (default)")
         .excludes(unfitted)
@@ -156,8 +157,8 @@ void LightFieldParameters::declare_hemicube(Parameters& parameters) {
     parameters.group(light_field_group);
     parameters
         .flag("--hemicube", hemicube,
-              "All directions behind the hologram, in five faces: 90 degrees in front, and four halves at the sides; "
-              "with --fov of more than 90 degrees, shorter sides")
+              "All directions behind the hologram, in five faces: a front of 90 degrees and four half faces at the "
+              "sides; --fov of more than 90 degrees shortens the sides")
         .excludes("--toward")
         .acts_if([this] { return is_rendered && frequencies == 0 && !focal_plane_given; });
 }
@@ -167,17 +168,17 @@ void LightFieldParameters::declare_directions(Parameters& parameters) {
     parameters
         .length(
             "--focal-plane", focal_plane,
-            "Depth behind the hologram of a fixed focal plane, whose points are those of all hogels, negative in front "
-            "of it, where cameras would stand; --fov and --toward are those of the middle of the hologram (default: "
-            "none, hogels have the same directions)")
+            "Depth of a fixed focal plane: the rays of all hogels pass through the same points of it. Positive behind "
+            "the hologram, negative in front, as a plane of cameras. --fov and --toward are then those of the middle "
+            "of the hologram (default: none, all hogels have the same directions)")
         .no_default()
         .sets(focal_plane_given)
         .excludes("--hemicube");
     parameters
         .positive_length(
             "--frequencies", frequencies,
-            "Directions on the frequency grid of a hologram of this wavelength, as many as the field of view holds; "
-            "with --algorithm raytrace, zbuffer or oblique")
+            "All directions within the field of view on the frequency grid of a hologram of this wavelength; with "
+            "--algorithm raytrace, zbuffer or oblique")
         .no_default()
         .excludes("--hemicube")
         .excludes("--focal-plane")
@@ -185,8 +186,8 @@ void LightFieldParameters::declare_directions(Parameters& parameters) {
         .excludes("--toward");
     parameters
         .count("--interpolate", interpolate,
-               "With --algorithm simplex: shade the corners of triangles as seen from the corners of regions of N x N "
-               "hogels, and interpolate between them (default: shade every sample)")
+               "With --algorithm simplex: shade the corners of triangles as seen from the corners of blocks of N x N "
+               "hogels, and interpolate (default: shade every sample)")
         .no_default()
         .sets(interpolate_given)
         .excludes("--hemicube")

@@ -34,7 +34,7 @@ std::string Parameter::option_text(const std::string& value) const {
 
 Parameter& Parameter::required() {
     is_required = true;
-    shown_default.clear();  // it would never be used
+    shown_default.clear();  // never used
     typed_.clear();
     return *this;
 }

@@ -65,7 +65,7 @@ TEST(Texts, of_pairs_of_angles_read_as_the_same_number) {
     }
 }
 
-// A command's parameters, as an example of all kinds.
+// Parameters of a command, with all kinds of values.
 struct Asked {
     std::string scene, name = "epi";
     std::optional<double> step;
@@ -161,7 +161,7 @@ TEST(Parameters, written_and_read_again_have_the_same_values) {
     EXPECT_EQ(again.picture, asked.picture);
 }
 
-// What the error of a text says.
+// Returns the message of the error of a text.
 std::string refusal(const std::string& name, const std::string& text) {
     Asked asked;
     try {
@@ -183,7 +183,7 @@ TEST(Parameters, refuse_what_is_no_value) {
     EXPECT_EQ(refusal("seed", "1001"), "--seed: '1001' is not a whole number from 0 to 1000");
     EXPECT_EQ(refusal("hogels", "8x"), "--hogels: '' is not a positive whole number; write e.g. 256x256");
     EXPECT_EQ(refusal("flat", "maybe"), "--flat: 'maybe' is neither yes nor no");
-    EXPECT_EQ(refusal("wavelength", "1,2,3,4um"), "--wavelength: 4 were given; at most three were expected");
+    EXPECT_EQ(refusal("wavelength", "1,2,3,4um"), "--wavelength: 4 given; expected at most three");
 }
 
 }  // namespace

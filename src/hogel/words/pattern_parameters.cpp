@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* automatic_encoding = "auto";
 
-// A device as the table writes it, typed in small letters or capitals.
+// Returns the name of a device in the table, found in upper or lower case.
 std::string device_name(const std::string& typed) {
     for (const std::string& name : modulators().names())
         if (strcasecmp(name.c_str(), typed.c_str()) == 0) return name;
@@ -28,12 +28,12 @@ std::string encoding_name(Encoding encoding) {
     return "";
 }
 
-// Whether the encoding, once it is chosen, is one of these.
+// Returns whether the selected encoding is one of these.
 bool is_one_of(const std::string& encoding, std::initializer_list<Encoding> these) {
     return std::ranges::count(these, encodings().find(encoding).encoding) > 0;
 }
 
-// What is stored of the pattern of one wavelength.
+// Returns the metadata of the pattern of one wavelength.
 Metadata pattern_entries(const Pattern& pattern, double wavelength, const Modulator& modulator, Encoding encoding) {
     const std::string name = format_length(wavelength);
     Metadata entries{{"efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency)}};
@@ -54,30 +54,28 @@ void declare_pattern(Parameters& parameters, PatternParameters& asked) {
     parameters.group("Pattern");
     parameters.choice(
         "--encoding", asked.encoding, names, "NAME",
-        "auto: phase, double-phase or gradient: the first that correlates with the field by 0.998, or the best\n"
-        "phase: the field's phase alone: for fields of even modulus, such as plane and spherical waves\n"
+        "auto: the first of phase, double-phase and gradient with a correlation of 0.998, or else the best\n"
+        "phase: only the field's phase: for fields of uniform modulus, such as plane and spherical waves\n"
         "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
         "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
-        "gradient: phases that show the field behind its aperture, which must be of that size: for any field\n"
+        "gradient: phases optimised to show the field behind an aperture of its size: for any field\n"
         "intensity: |F + R|² with a reference beam R\n"
         "bipolar: 2 Re(F R*), raised to be positive\n"
-        "burckhardt, lee: three or four real components, in columns by turns\n"
-        "binary: where Re(F R*) is positive");
+        "burckhardt, lee: three or four real components, in alternating columns\n"
+        "binary: 1 where Re(F R*) is positive");
     parameters
         .angle("--reference", asked.pattern.reference_angle,
-               "Angle of the reference beam; 0: between the least and the most that will do")
+               "Angle of the reference beam; 0: midway between the smallest and the largest possible")
         .acts_if([&asked] {
             return is_one_of(asked.encoding, {Encoding::intensity, Encoding::bipolar, Encoding::binary});
         });
-    parameters.number("--clip", asked.pattern.clip, "0..1",
-                      "Share of the samples whose modulus may be cut to the largest");
-    parameters.count("--window", asked.pattern.window, "Gerchberg-Saxton: pixels of a hogel's side").acts_if([&asked] {
-        return is_one_of(asked.encoding, {Encoding::gerchberg_saxton});
-    });
+    parameters.number("--clip", asked.pattern.clip, "0..1", "Fraction of the samples with clipped modulus");
+    parameters.count("--window", asked.pattern.window, "Gerchberg-Saxton: pixels along a side of a hogel")
+        .acts_if([&asked] { return is_one_of(asked.encoding, {Encoding::gerchberg_saxton}); });
     parameters
         .count("--iterations", asked.pattern.iterations,
-               "Gerchberg-Saxton: how many steps (default: 40); gradient: at most (default: 200), until the\n"
-               "correlation with the field no longer gains")
+               "Gerchberg-Saxton: number of steps (default: 40); gradient: maximum number (default: 200), until the "
+               "correlation with the field stops rising")
         .no_default()
         .acts_if([&asked] {
             return is_one_of(asked.encoding, {Encoding::gerchberg_saxton, Encoding::gradient});
@@ -94,18 +92,18 @@ void declare_modulator(Parameters& parameters, PatternParameters& asked) {
                                   .sets_parameter("pixel_pitch")
                                   .knows(modulators().names());
     const auto is_described = [&asked] { return asked.device.empty(); };
-    parameters.counts("--pixels", asked.pixels, "Any other: pixels across and down")
+    parameters.counts("--pixels", asked.pixels, "Another modulator: pixels across and down")
         .no_default()
         .excludes(device)
         .acts_if(is_described);
-    parameters.positive_length("--pixel-pitch", asked.pixel_pitch, "Distance of its pixels")
+    parameters.positive_length("--pixel-pitch", asked.pixel_pitch, "Another modulator: pixel pitch")
         .no_default()
         .excludes(device)
         .acts_if(is_described);
-    parameters.count("--levels", asked.levels, "Levels of its pixels").excludes(device).acts_if([&asked] {
-        return asked.device.empty() && !is_one_of(asked.encoding, {Encoding::binary});
-    });
-    std::string codes = "Levels of phases as this program writes them:";
+    parameters.count("--levels", asked.levels, "Another modulator: levels of a pixel")
+        .excludes(device)
+        .acts_if([&asked] { return asked.device.empty() && !is_one_of(asked.encoding, {Encoding::binary}); });
+    std::string codes = "Encoding of phases as levels, as other programs use it:";
     for (const PhaseCodeInfo& code : phase_codes().rows()) codes += fmt::format("\n{}: {}", code.name, code.text);
     parameters
         .text("--phase-code", asked.phase_code, "CODE",
@@ -119,13 +117,13 @@ Modulator PatternParameters::modulator() const {
     const bool is_described = pixels.columns > 0 || pixel_pitch > 0;
     if (device.empty() == !is_described)
         throw Error(ErrorCode::usage, "device, pixels, pixel_pitch",
-                    "name a modulator, or describe one by its pixels and their pitch");
+                    "name a modulator by device, or describe one by pixels and pixel pitch");
     if (!is_described) return modulators().find(device_name(device));
     if (pixels.columns == 0 || pixel_pitch == 0)
-        throw Error(ErrorCode::usage, "pixels, pixel_pitch", "a modulator is described by both");
+        throw Error(ErrorCode::usage, "pixels, pixel_pitch", "give both to describe a modulator");
     if (std::max(pixels.columns, pixels.rows) > 65536)
-        throw Error(ErrorCode::usage, "pixels", "at most 65536 were expected on a side");
-    if (levels < 2 || levels > 256) throw Error(ErrorCode::usage, "levels", "2 to 256 were expected");
+        throw Error(ErrorCode::usage, "pixels", "expected at most 65536 on a side");
+    if (levels < 2 || levels > 256) throw Error(ErrorCode::usage, "levels", "expected 2 to 256");
     return {"", pixels.columns, pixels.rows, pixel_pitch, static_cast<unsigned>(levels)};
 }
 
@@ -150,18 +148,18 @@ void PatternParameters::resolve(Encoding chosen) {
 
 Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fields& fields) const {
     using Values = ExternalField::Values;
-    const Modulator shown_by = modulator();
+    const Modulator device_used = modulator();
     Metadata entries;
     std::vector<double> wavelengths;
     for (std::size_t c = 0; c < fields.size(); ++c) {
         wavelengths.push_back(fields[c]->grid().wavelength);
-        for (auto& entry : pattern_entries(encoded.patterns[c], wavelengths[c], shown_by, encoded.encoding))
-            entries.push_back(std::move(entry));
+        for (auto& field_entry : pattern_entries(encoded.patterns[c], wavelengths[c], device_used, encoded.encoding))
+            entries.push_back(std::move(field_entry));
     }
-    ExternalField what{.pitch_x = shown_by.pitch, .pitch_y = shown_by.pitch};
-    what.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
-    what.phase_code = parse_phase_code(phase_code);
-    for (auto& entry : field_entries(what, wavelengths)) entries.push_back(std::move(entry));
+    ExternalField external{.pitch_x = device_used.pitch, .pitch_y = device_used.pitch};
+    external.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
+    external.phase_code = parse_phase_code(phase_code);
+    for (auto& field_entry : field_entries(external, wavelengths)) entries.push_back(std::move(field_entry));
     return entries;
 }
 

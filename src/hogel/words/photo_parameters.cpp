@@ -98,10 +98,10 @@ std::string WaveCameraParameters::resolve(std::span<const LightFieldGrid> faces,
 Parameter& WaveCameraParameters::declare_camera(Parameters& parameters, bool with_plane_waves) {
     std::vector<std::string> names{"auto", "eye", "narrow"}, words{"hogel-spectra", "samples"};
     std::string help =
-        "How waves are photographed:"
-        "\nauto: eye where the hogels are known and that is cheaper, otherwise narrow"
-        "\neye, hogel-spectra: the few numbers of each hogel that enter the lens"
-        "\nnarrow, samples: the band that enters the lens, from all samples, tile by tile";
+        "Camera of photographs by waves:"
+        "\nauto: eye if the hogels are known and it is cheaper, otherwise narrow"
+        "\neye, hogel-spectra: light through the lens directly from hogel spectra, without samples"
+        "\nnarrow, samples: light through the lens as a narrow band, from all samples, tile by tile";
     if (with_plane_waves) {
         names.emplace_back("full");
         words.emplace_back("plane-waves");
@@ -128,16 +128,17 @@ Parameter& WaveCameraParameters::declare_speckle(Parameters& parameters) {
 
 void WaveCameraParameters::declare(Parameters& parameters) {
     declare_camera(parameters, true);
-    parameters.flag("--preview", preview, "Without waves that pass far from the lens: a quick look, for the camera eye")
+    parameters.flag("--preview", preview, "Skip waves far outside the lens: faster but less exact, for the camera eye")
         .acts_if([this] { return preview; });
     parameters
-        .length("--film-distance", film_distance,
-                "From a thin lens to its film, for the full camera, with its aberrations; 0mm: a perfect lens")
+        .length(
+            "--film-distance", film_distance,
+            "Distance from a thin lens, with its aberrations, to the film, for the full camera; 0mm: a perfect lens")
         .acts_if([this] { return source != PhotographSource::rays && camera == "full"; });
     parameters
         .choice("--diffuser", diffuser, {"none", "vertical"}, "none|vertical",
-                "What stands before a hologram with horizontal parallax only:"
-                "\nvertical: a diffuser that spreads the light of each line to all heights")
+                "Diffuser in front of a hologram with horizontal parallax only:"
+                "\nvertical: spreads the light of each line to all heights")
         .acts_if([this] { return source == PhotographSource::samples && camera != "full"; });
 }
 
@@ -165,8 +166,8 @@ void PhotoParameters::declare(Parameters& parameters) {
     parameters.choice("--display", display, {"intensity", "log", "phase"}, "intensity|log|phase",
                       "What a photograph by waves shows:"
                       "\nintensity: linear light"
-                      "\nlog: four decades of it from black to white"
-                      "\nphase: its phase beside that of light through the middle of the lens, from -pi to pi");
+                      "\nlog: four decades of light from black to white"
+                      "\nphase: relative to the phase of light through the middle of the lens, from -pi to pi");
     waves.declare(parameters);
     const Parameter& by_rays =
         parameters.flag("--geometric", geometric, "By rays rather than waves (default for a light field)")
@@ -174,9 +175,8 @@ void PhotoParameters::declare(Parameters& parameters) {
     parameters.flag("--wave", wave, "By waves, through the hologram (default for a scene)")
         .excludes(by_rays)
         .acts_if([this] { return wave && waves.source != PhotographSource::samples; });
-    parameters.count("--pupil-samples", pupil_samples, "Points of the pupil in a geometric photograph").acts_if([this] {
-        return geometric;
-    });
+    parameters.count("--pupil-samples", pupil_samples, "Sample points of the pupil in a geometric photograph")
+        .acts_if([this] { return geometric; });
 }
 
 }  // namespace hogel

@@ -10,12 +10,11 @@ PrinterImageOptions PrintParameters::options() const {
 }
 
 void PrintParameters::declare(Parameters& parameters) {
-    parameters.flag("--strips", images.rows, "One picture a row of hogels, side by side, instead of one a hogel");
-    parameters.choice("--order", order, {"serpentine", "rows"}, "NAME",
-                      "serpentine: every second row from the right\nrows: all rows from the left");
-    parameters
-        .number("--exposure", images.exposure, "NUMBER",
-                "What linear values are multiplied by, the same in all pictures")
+    parameters.flag("--strips", images.rows, "One picture per row of hogels, side by side, instead of one per hogel");
+    parameters.choice(
+        "--order", order, {"serpentine", "rows"}, "NAME",
+        "Order of the hogels:\nserpentine: every second row from the right\nrows: all rows from the left");
+    parameters.number("--exposure", images.exposure, "NUMBER", "Factor for linear values, the same in all pictures")
         .positive();
 }
 

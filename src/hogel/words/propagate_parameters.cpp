@@ -16,29 +16,30 @@ PropagateOptions PropagateParameters::options(const Grid& field) const {
 }
 
 void PropagateParameters::resolve(const Grid& output) {
-    // One number does not say that samples are farther apart in one direction.
+    // One number cannot express two different pitches.
     output_pitch = output.pitch_x == output.pitch_y ? output.pitch_x : 0;
     output_samples = {output.width, output.height};
 }
 
 void PropagateParameters::declare(Parameters& parameters) {
-    parameters.length("--distance", distance, "Towards the viewer; negative goes back behind the hologram").required();
+    parameters.length("--distance", distance, "Distance towards the viewer; negative: back behind the hologram")
+        .required();
     parameters
         .choice("--display", display, {"intensity", "amplitude", "log", "phase", "field"},
                 "intensity|amplitude|log|phase|field",
-                "What a picture shows; log: four decades, phase: black at -pi to white at pi,\n"
-                "field: real and imaginary parts, in a file (.exr) of channels")
+                "Content of a picture:\nlog: four decades of intensity\nphase: black at -pi to white at pi\n"
+                "field: real and imaginary parts, in the channels of an .exr file")
         .acts_if([this] { return is_picture; });
-    parameters.positive_length("--output-pitch", output_pitch, "Of the output's samples")
+    parameters.positive_length("--output-pitch", output_pitch, "Sample pitch of the output")
         .default_text("that of the input")
         .acts_if([this] { return output_pitch > 0; });
-    parameters.counts("--output-samples", output_samples, "Of the output, across and down")
+    parameters.counts("--output-samples", output_samples, "Samples of the output, across and down")
         .default_text("as many as the input has");
-    parameters.length("--offset-x", offset_x, "Of the output's middle from that of the input, to the right");
-    parameters.length("--offset-y", offset_y, "Of the output's middle from that of the input, upwards");
+    parameters.length("--offset-x", offset_x, "Offset of the output's middle from the input's, to the right");
+    parameters.length("--offset-y", offset_y, "Offset of the output's middle from the input's, upwards");
     parameters
         .number("--max-error", max_error, "E",
-                "Greatest relative error of the samples (root mean square); what would exceed it is refused")
+                "Maximum relative RMS error of the samples; a propagation that would exceed it is refused")
         .positive();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters that act, read again, make the same request.
+// Parameters that have an effect, written and read again, make the same request.
 #include "hogel/requests.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-// The names of parameters that an error of the request is about.
+// Returns the parameter names of an error of the request.
 template <class Values, class Request>
 std::string refused(const Texts& texts, const Request& request) {
     try {

@@ -15,17 +15,16 @@
 namespace hogel {
 namespace {
 
-// The irradiance of a light of the command line without a strength: that of the light that comes first where there is
-// none (add_default_lights()).
+// Default irradiance of a light of the command line: that of the first default light (add_default_lights()).
 constexpr double usual_strength = 2.2;
 
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
-    for (std::size_t at = 0;;) {
-        const std::size_t end = text.find(separator, at);
-        parts.push_back(text.substr(at, end - at));
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = text.find(separator, begin);
+        parts.push_back(text.substr(begin, end - begin));
         if (end == std::string::npos) return parts;
-        at = end + 1;
+        begin = end + 1;
     }
 }
 
@@ -33,7 +32,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
     throw Error(ErrorCode::usage, parameter, fmt::format("'{}' is not {}", text, expected));
 }
 
-// @param text  the whole text, for messages
+// @param text  the full text, for messages
 Vec3 parse_vector(const std::string& numbers, const std::string& text, const std::string& parameter,
                   const std::string& expected) {
     const std::vector<std::string> parts = split(numbers, ',');
@@ -80,7 +79,7 @@ Rgb parse_color(const std::string& text, const std::string& parameter) {
 
 Light parse_light(const std::string& text) {
     constexpr const char* expected =
-        "a light; write where it comes from, X,Y,Z, then :COLOUR and :STRENGTH if you like";
+        "a light; write the direction that it comes from, X,Y,Z, then optionally :COLOUR and :STRENGTH";
     const std::vector<std::string> parts = split(text, ':');
     if (parts.size() > 3) refuse("light", text, expected);
     const Vec3 from = parse_vector(parts[0], text, "light", expected);
@@ -140,39 +139,42 @@ void SceneParameters::declare(Parameters& parameters) {
     parameters.group("Scene", [this] { return is_loaded; });
     parameters.parsed(
         "--up", "AXIS",
-        "The direction of the scene that points upwards: y (default; of STL, 3MF and AMF files z), x, -x, -y, -z, or "
+        "Direction of the scene that points upwards: y (default; for STL, 3MF and AMF files z), x, -x, -y, -z, or "
         "X,Y,Z",
         [this](const std::string& text) { pose.up = parse_up(text); });
     parameters
         .rotation("--rotate", pose.rotation,
-                  "Turn the scene about x (to the right), then y (up), then z (to the viewer)")
+                  "Rotate the scene about x (to the right), then y (up), then z (to the viewer)")
         .no_default();
     parameters
         .text("--scene-camera", pose.camera, "NAME",
-              "Take the view of a camera of the scene's file, by its name or number (default: front)")
+              "Use the view of a camera in the scene's file, by its name or number (default: front)")
         .no_default();
-    parameters.number("--scale", pose.scale, "F", "Enlarge the scene, after it was fitted to the hologram")
+    parameters.number("--scale", pose.scale, "F", "Scale factor, after the scene was fitted to the hologram")
         .positive()
         .no_default();
-    parameters.point("--move", pose.shift, "Move the scene, after that: right, up and towards the viewer").no_default();
+    parameters.point("--move", pose.shift, "Move the scene, after --scale: right, up and towards the viewer")
+        .no_default();
     parameters.parsed("--colour", "COLOUR",
-                      "Colour of all surfaces in place of their own: #rrggbb, linear R,G,B, or a name such as red",
+                      "Colour of all surfaces instead of their own: #rrggbb, linear R,G,B, or a name such as red",
                       [this](const std::string& text) { pose.color = parse_color(text, "colour"); });
     parameters.text("--texture", texture, "FILE", "Picture on all surfaces that have texture coordinates").no_default();
     parameters
         .texts("--light", lights, "X,Y,Z[:COLOUR[:F]]",
-               fmt::format("A light in place of the scene's own: where it comes from, its colour (default: white) and "
-                           "its strength (default: {}); may be given several times",
+               fmt::format("Light that replaces the scene's own: the direction that it comes from, its colour "
+                           "(default: white) and its strength (default: {}); may be given several times",
                            usual_strength))
         .acts_if([this] { return is_lit; });
     parameters
-        .parsed("--background", "COLOUR", "Of rays that meet nothing (default: the scene's, of a mesh file black)",
+        .parsed("--background", "COLOUR",
+                "Colour of rays that hit nothing (default: the scene's; for a mesh file black)",
                 [this](const std::string& text) { pose.background = parse_color(text, "background"); })
         .acts_if([this] { return has_background; });
-    parameters.parsed("--ground", "COLOUR", "Put a level ground of this colour under the scene (default: none)",
+    parameters.parsed("--ground", "COLOUR", "Add a level ground of this colour under the scene (default: none)",
                       [this](const std::string& text) { pose.ground = parse_color(text, "ground"); });
     parameters
-        .number("--point-size", point_size, "F", "Size of a point cloud's discs; 1 (default) just closes its surface")
+        .number("--point-size", point_size, "F",
+                "Relative size of a point cloud's discs; 1 (default) just closes its surface")
         .positive()
         .no_default()
         .acts_if([this] { return has_points; });

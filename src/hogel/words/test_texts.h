@@ -5,7 +5,7 @@
 
 namespace hogel {
 
-// For tests: parameters with a table, and texts that set them.
+// For tests: sets parameters from texts.
 template <class Values>
 struct FromTexts {
     Values values;

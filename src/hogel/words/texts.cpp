@@ -21,9 +21,9 @@ namespace hogel::words {
 using namespace literals;
 namespace {
 
-constexpr std::size_t max_count = std::size_t{1} << 24;  // a larger number along one side is treated as a typing error
+constexpr std::size_t max_count = std::size_t{1} << 24;  // larger counts are treated as typing errors
 
-// Lengths beyond these are typing errors, and would overflow where they are squared.
+// Lengths outside this range (metres) are treated as typing errors; their squares could overflow.
 constexpr double min_length = 1_nm * 1e-3, max_length = 1e6;
 
 std::size_t parse_count(const std::string& text, const std::string& what, const char* hint) {
@@ -37,7 +37,7 @@ std::size_t parse_count(const std::string& text, const std::string& what, const 
     throw Error(ErrorCode::usage, fmt::format("{}: '{}' is not a positive whole number{}", what, text, hint));
 }
 
-// The unit of a list such as "1,2,3mm": the text after its last number.
+// Returns the unit of a list such as "1,2,3mm", given its last item: the text after the number.
 std::string unit_of(const std::string& last) {
     double number = 0;
     const char* const end = last.data() + last.size();
@@ -45,12 +45,12 @@ std::string unit_of(const std::string& last) {
     return {std::from_chars(begin, end, number).ptr, end};
 }
 
-// A part of a list with its unit; if it has none, with that of the last part.
+// Returns an item of a list with its unit, or with the unit of the last item if it has none.
 std::string with_unit(const std::string& part, const std::string& unit) {
     return parse_number(part) ? part + unit : part;
 }
 
-// "638nm,520nm,450nm": up to three.
+// Parses up to three lengths: "638nm,520nm,450nm".
 std::vector<double> parse_lengths(const std::string& text, const std::string& what) {
     const std::string unit = unit_of(text.substr(text.rfind(',') + 1));
     std::vector<double> lengths;
@@ -60,12 +60,11 @@ std::vector<double> parse_lengths(const std::string& text, const std::string& wh
         begin = end + 1;
     }
     if (lengths.size() > 3)
-        throw Error(ErrorCode::usage,
-                    fmt::format("{}: {} were given; at most three were expected", what, lengths.size()));
+        throw Error(ErrorCode::usage, fmt::format("{}: {} given; expected at most three", what, lengths.size()));
     return lengths;
 }
 
-// The shortest decimal number that reads as value * 10^-exponent would if it were exact, without an exponent.
+// Returns value * 10^-exponent as the shortest decimal number without an exponent that is parsed to the same value.
 std::string shifted_text(double value, int exponent) {
     std::string digits = fmt::format("{:e}", std::abs(value));
     for (int precision = 0; precision < 17; ++precision) {
@@ -84,7 +83,7 @@ std::string shifted_text(double value, int exponent) {
     return (value < 0 ? "-" : "") + digits;
 }
 
-// Numbers with units, without those that are the last one's.
+// Joins numbers with units; omits units equal to that of the last number.
 std::string list_text(std::vector<std::string> texts) {
     const std::string unit = unit_of(texts.back());
     const auto is_plain = [&](const std::string& text) { return unit_of(text) == unit; };

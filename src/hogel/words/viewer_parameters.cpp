@@ -12,9 +12,9 @@ namespace hogel {
 namespace {
 
 constexpr std::uint64_t max_port = 65535;
-constexpr std::size_t shortest_token = 16;  // 80 bits of random letters and digits
+constexpr std::size_t shortest_token = 16;  // about 80 bits if random
 
-// Whether an address is this machine's own: 127.0.0.1 and its neighbours, ::1, localhost.
+// Returns whether an address is a loopback address: 127.*, ::1, localhost.
 bool is_loopback(const std::string& host) {
     return host == "localhost" || host == "::1" ||
            (host.starts_with("127.") && host.find_first_not_of("0123456789.") == std::string::npos);
@@ -23,15 +23,16 @@ bool is_loopback(const std::string& host) {
 void require_token(const std::string& host, const std::string& token) {
     if (token.empty()) {
         if (is_loopback(host)) return;
-        throw Error(ErrorCode::usage, "host",
-                    fmt::format("whoever reaches {} would see the pictures; add --token with at least {} letters and "
-                                "digits",
-                                host, shortest_token));
+        throw Error(
+            ErrorCode::usage, "host",
+            fmt::format("anyone who can reach {} would see the pictures; add --token with at least {} letters and "
+                        "digits",
+                        host, shortest_token));
     }
     const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
     if (token.size() < shortest_token || !std::ranges::all_of(token, allowed))
         throw Error(ErrorCode::usage, "token",
-                    fmt::format("at least {} letters, digits, '-' or '_' were expected", shortest_token));
+                    fmt::format("expected at least {} letters, digits, '-' or '_'", shortest_token));
 }
 
 }  // namespace
@@ -41,22 +42,22 @@ void ViewerParameters::declare(Parameters& parameters) {
         "input", input, "X.h5|SCENE|F.h5|FOLDER",
         "Light field, set of views, mesh file, built-in scene, hologram, another program's field, or a "
         "folder of hogel make");
-    parameters.whole("--port", port, max_port, "Port to listen on; 0: one that is free");
-    parameters.text("--host", host, "ADDRESS", "Address to listen on; one of others needs --token");
+    parameters.whole("--port", port, max_port, "Port to listen on; 0: any free port");
+    parameters.text("--host", host, "ADDRESS",
+                    "Address to listen on; any other than this machine's loopback needs --token");
     parameters
-        .text("--token", token, "WORD",
-              "What the page's address must hold, so that only those who know it see pictures")
+        .text("--token", token, "WORD", "Secret that the page's address must contain; requests without it are refused")
         .no_default();
-    parameters.flag("--no-browser", no_browser, "Print the address and open no browser");
+    parameters.flag("--no-browser", no_browser, "Print the address without opening a browser");
     parameters
         .number("--memory", memory, "GB",
-                "For the samples of the light field; of a larger one some hogels are left out")
+                "Memory for the samples of the light field; a larger one is shown with fewer hogels")
         .range(0.001, 1e6);
     parameters.count("--looks", looks, "Photographs by waves averaged against speckle, unless of a hologram file");
-    parameters.count("--layers", layers, "Show the first layers of a .hgl file alone (default: all)").no_default();
+    parameters.count("--layers", layers, "Show only the first N layers of a .hgl file (default: all)").no_default();
     parameters
         .text("--original", original, "X.h5",
-              "The light field that a .hgl file was made of, beside which errors are shown (default: the whole file)")
+              "Light field that a .hgl file was made of, to show errors (default: the full file)")
         .no_default();
     hologram.declare(parameters);
     render.declare(parameters);
@@ -68,9 +69,9 @@ void ViewerParameters::declare(Parameters& parameters) {
 std::string ViewerParameters::viewable() const {
     require_token(host, token);
     const std::filesystem::path made = std::filesystem::path(input) / "lightfield.h5";
-    std::error_code none;
-    if (std::filesystem::exists(std::filesystem::path(input) / "report.json", none)) {
-        if (std::filesystem::exists(made, none)) return made.string();
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::path(input) / "report.json", ignored)) {
+        if (std::filesystem::exists(made, ignored)) return made.string();
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: holds no lightfield.h5; 'hogel make --keep-light-field' keeps it", input));
     }
