@@ -70,12 +70,12 @@ Difference compare_faces(const LightFieldSource& a, const LightFieldSource& b, c
     const HogelRange tile = default_tile(grid);
     return sum_blocks({grid.hogels_s, grid.hogels_t, tile.ns, tile.nt}, progress, [&](const Region& block) {
         const HogelRange range{block.x0, block.y0, block.width, block.height};
-        LightFieldTile of_a(grid, range, false), of_b(grid, range, false);
-        a.read(of_a);
-        b.read(of_b);
+        LightFieldTile tile_a(grid, range, false), tile_b(grid, range, false);
+        a.read(tile_a);
+        b.read(tile_b);
         Difference difference;
-        for (std::size_t i = 0; i < of_a.radiance.size(); ++i) {
-            const double f = of_a.radiance.data()[i], g = of_b.radiance.data()[i];
+        for (std::size_t i = 0; i < tile_a.radiance.size(); ++i) {
+            const double f = tile_a.radiance.data()[i], g = tile_b.radiance.data()[i];
             difference.add(std::abs(f), std::abs(f - g));
         }
         return difference;
@@ -96,18 +96,18 @@ Difference compare_fields(const FieldSource& a, const FieldSource& b, const Prog
     });
 }
 
-// A maximum passes over what is no number; a sum does not.
+// std::max() ignores NaN; a sum does not.
 SampleComparison result_of(const Difference& sum) {
     return {sum.sqnr(), sum.psnr(), std::isnan(sum.error) ? sum.error : sum.max_error};
 }
 
-// Whether fields are sampled alike, but for the rounding of lengths that a text or an option says.
+// Returns whether fields have the same sampling, except for the rounding of lengths in texts and options.
 bool are_alike(const FieldGrid& a, const FieldGrid& b) {
     const Grid &p = a.plane, &q = b.plane;
-    const auto near = [](double x, double y, double unit) { return std::abs(x - y) <= 1e-9 * unit; };
-    return p.width == q.width && p.height == q.height && near(p.pitch_x, q.pitch_x, p.pitch_x) &&
-           near(p.pitch_y, q.pitch_y, p.pitch_y) && near(p.center_x, q.center_x, p.pitch_x) &&
-           near(p.center_y, q.center_y, p.pitch_y) && near(a.wavelength, b.wavelength, a.wavelength);
+    const auto is_near = [](double x, double y, double unit) { return std::abs(x - y) <= 1e-9 * unit; };
+    return p.width == q.width && p.height == q.height && is_near(p.pitch_x, q.pitch_x, p.pitch_x) &&
+           is_near(p.pitch_y, q.pitch_y, p.pitch_y) && is_near(p.center_x, q.center_x, p.pitch_x) &&
+           is_near(p.center_y, q.center_y, p.pitch_y) && is_near(a.wavelength, b.wavelength, a.wavelength);
 }
 
 [[noreturn]] void sampled_differently(const char* what) {

@@ -7,7 +7,7 @@
 namespace hogel::pipeline {
 namespace {
 
-// A light field whose samples say where they are: s, t and the direction.
+// A light field with samples that encode their position: s, t and the direction.
 LightField places(std::size_t columns, std::size_t rows) {
     const LightFieldGrid grid{columns, rows, 1e-3, 2, 3, Perspective{0.2, 0.3}, 3};
     auto buffer = std::make_shared<LightFieldBuffer>(grid, true);
@@ -30,7 +30,7 @@ LightFieldTile whole(const LightField& light_field) {
     return tile;
 }
 
-// The grid's place of each hogel is the place of the hogel that was read, for even and odd numbers and all steps.
+// The grid position of each hogel is that of the source hogel, for even and odd numbers and all steps.
 TEST(EveryNthHogel, IsWhereItsGridSaysItIs) {
     for (const auto& [columns, rows] : {std::pair<std::size_t, std::size_t>{9, 8}, {7, 12}, {16, 5}, {2, 3}})
         for (std::size_t n = 1; n <= 9; ++n) {
@@ -55,7 +55,7 @@ TEST(EveryNthHogel, SpansWhatItCan) {
 }
 
 TEST(EveryNthHogel, HasTheDepthOfItsHogels) {
-    const LightFieldTile tile = whole(every_nth_hogel(places(9, 9), 4));  // the middle alone
+    const LightFieldTile tile = whole(every_nth_hogel(places(9, 9), 4));  // only the middle
     EXPECT_EQ(tile.depth(0, 0, 0, 0), 404);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of light fields and holograms that programs write which do not know of each other.
+// Parts of light fields and holograms, written by independent programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace hogel {
 namespace {
 
-// The rows of a part if `units` rows or groups of rows are divided as evenly as they can be.
+// Returns the rows of a part; `units` rows or groups of rows are divided as evenly as possible.
 io::Rows rows_of(const FilePart& part, std::size_t units, const char* what) {
     if (part.number == 0 || part.number > part.count)
         throw Error(ErrorCode::usage, "part",
@@ -29,51 +29,51 @@ io::Rows rows_of(const FilePart& part, std::size_t units, const char* what) {
 
 io::PartNumber number_of(const FilePart& part) { return {part.number, part.count, part.input}; }
 
-// Some rows of hogels of a light field's face.
+// Range of rows of hogels of a light-field face.
 class HogelRows final : public LightFieldSource {
   public:
-    HogelRows(LightField::Source whole, const io::Rows& rows)
-        : whole_(std::move(whole)), first_(rows.first), grid_(whole_->grid()) {
+    HogelRows(LightField::Source source, const io::Rows& rows)
+        : source_(std::move(source)), first_(rows.first), grid_(source_->grid()) {
         grid_.hogels_t = rows.count;
     }
     const LightFieldGrid& grid() const override { return grid_; }
-    bool has_depth() const override { return whole_->has_depth(); }
+    bool has_depth() const override { return source_->has_depth(); }
     HogelRange preferred_tile() const override {
-        HogelRange tile = whole_->preferred_tile();
+        HogelRange tile = source_->preferred_tile();
         tile.nt = std::min(tile.nt, grid_.hogels_t);
         return tile;
     }
     void read(LightFieldTile& tile) const override {
         tile.range.t0 += first_;
-        whole_->read(tile);
+        source_->read(tile);
         tile.range.t0 -= first_;
     }
 
   private:
-    LightField::Source whole_;
+    LightField::Source source_;
     std::size_t first_;
     LightFieldGrid grid_;
 };
 
-// Some rows of samples of a field.
+// Range of rows of samples of a field.
 class SampleRows final : public FieldSource {
   public:
-    SampleRows(std::shared_ptr<const FieldSource> whole, const io::Rows& rows)
-        : whole_(std::move(whole)), first_(rows.first), grid_(whole_->grid()) {
+    SampleRows(std::shared_ptr<const FieldSource> source, const io::Rows& rows)
+        : source_(std::move(source)), first_(rows.first), grid_(source_->grid()) {
         grid_.plane.height = rows.count;
     }
     const FieldGrid& grid() const override { return grid_; }
-    std::size_t alignment() const override { return whole_->alignment(); }
-    std::size_t overlap() const override { return whole_->overlap(); }
-    std::size_t looks() const override { return whole_->looks(); }
+    std::size_t alignment() const override { return source_->alignment(); }
+    std::size_t overlap() const override { return source_->overlap(); }
+    std::size_t looks() const override { return source_->looks(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
-        Region there = region;
-        there.y0 += first_;
-        whole_->read(there, look, out);
+        Region source_region = region;
+        source_region.y0 += first_;
+        source_->read(source_region, look, out);
     }
 
   private:
-    std::shared_ptr<const FieldSource> whole_;
+    std::shared_ptr<const FieldSource> source_;
     std::size_t first_;
     FieldGrid grid_;
 };

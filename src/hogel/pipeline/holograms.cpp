@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a light field to holograms of several wavelengths and photographs of them.
+// Holograms of a light field at several wavelengths, and photographs of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,11 +22,11 @@ namespace hogel {
 void require_holograms(std::span<const LightFieldGrid> faces, const HologramRequest& request,
                        std::span<const Camera> cameras) {
     if (request.channels.empty()) throw Error(ErrorCode::usage, "a hologram needs a wavelength; there is none");
-    // The shortest wavelength is the most critical: it is diffracted least and has the finest detail in the light that
-    // enters a lens.
+    // The shortest wavelength is critical: it has the smallest diffraction angle, and the finest detail in the light
+    // that enters a lens.
     const Channel& shortest = *std::ranges::min_element(request.channels, {}, &Channel::wavelength);
     const FieldGrid hologram = hologram_grid(faces, request.options(shortest, faces));
-    // The longest has the fewest directions and the coarsest detail.
+    // The longest has the smallest number of directions and the coarsest detail.
     const Channel& longest = *std::ranges::max_element(request.channels, {}, &Channel::wavelength);
     if (&longest != &shortest) require_photographs(hologram_grid(faces, request.options(longest, faces)), cameras);
     require_photographs(hologram, cameras);
@@ -86,8 +86,8 @@ Fields make_holograms(const LightField& light_field, const HologramRequest& requ
 
 namespace {
 
-// Colours in the order in which they are photographed: short waves first, because their bands have the most samples,
-// and the other colours use the same memory.
+// Returns the colours in the order of their photographs: short wavelengths first, because their bands have the most
+// samples, and the other colours reuse their memory.
 std::vector<std::size_t> in_order(const Fields& holograms) {
     std::vector<std::size_t> order(holograms.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -101,8 +101,8 @@ std::vector<Image> unexposed(const Fields& holograms, std::span<const Camera> ca
     return pictures;
 }
 
-// Photographs by one camera or several of all colours, which the processes of a team make together, one colour after
-// the other. The narrow camera keeps the light of each tile; but not behind a diffuser, where that is gigabytes.
+// Photographs all colours by some cameras, one colour after the other; all ranks compute each picture together. The
+// narrow-band camera checkpoints the light of each tile, except behind a diffuser, where it takes gigabytes.
 void photograph_one_by_one(const Fields& holograms, std::span<const Camera> cameras, const CameraModel& model,
                            std::span<Image> pictures, const Progress& progress) {
     const auto* const band = std::get_if<BandCamera>(&model);
@@ -112,43 +112,48 @@ void photograph_one_by_one(const Fields& holograms, std::span<const Camera> came
     const auto photograph = [&](std::size_t k) {
         return hogel::photograph(*holograms[order[k]], cameras, model, progress.part(k, order.size()));
     };
-    const auto put = [&](std::size_t k, std::vector<Image>& made) {
+    const auto put = [&](std::size_t k, std::vector<Image>& colour_pictures) {
         job.colours = {order[k]};
-        pipeline::put(job, made, pictures);
+        pipeline::put(job, colour_pictures, pictures);
     };
     if (band == nullptr || band->vertical_diffuser)
         return work::shared_jobs<std::vector<Image>>(order.size(), image::sent_pictures(), photograph, put,
                                                      work::DoneBy::all_ranks);
     for (std::size_t k = 0; k < order.size(); ++k) {
-        std::vector<Image> made = photograph(k);
-        put(k, made);
+        std::vector<Image> colour_pictures = photograph(k);
+        put(k, colour_pictures);
     }
 }
 
 }  // namespace
 
 std::vector<std::vector<Image>> photograph_colours(const Fields& holograms, std::span<const Camera> cameras,
-                                                   std::span<const CameraModel> ways, const Progress& progress) {
+                                                   std::span<const CameraModel> models, const Progress& progress) {
     const core::StopScope scope(progress);
     if (holograms.empty()) throw Error(ErrorCode::usage, "a photograph needs a hologram; there is none");
     std::vector<std::vector<Image>> pictures;
-    for (std::size_t way = 0; way < ways.size(); ++way) pictures.push_back(unexposed(holograms, cameras));
+    for (std::size_t model_index = 0; model_index < models.size(); ++model_index)
+        pictures.push_back(unexposed(holograms, cameras));
     const std::vector<pipeline::PictureJob> jobs =
-        pipeline::picture_jobs(holograms, in_order(holograms), cameras, ways);
-    std::size_t others = 0, done = 0;
-    for (const CameraModel& with : ways) others += pipeline::is_made_in_jobs(holograms, with) ? 0 : 1;
-    const std::size_t parts = jobs.size() + others;
+        pipeline::picture_jobs(holograms, in_order(holograms), cameras, models);
+    std::size_t shared_pictures = 0, done = 0;
+    for (const CameraModel& model : models) shared_pictures += pipeline::is_made_in_jobs(holograms, model) ? 0 : 1;
+    const std::size_t parts = jobs.size() + shared_pictures;
     work::shared_jobs<std::vector<Image>>(
         jobs.size(), image::sent_pictures(),
-        [&](std::size_t i) { return pipeline::photograph(jobs[i], holograms, cameras, ways, progress.part(i, parts)); },
-        [&](std::size_t i, std::vector<Image>& made) { pipeline::put(jobs[i], made, pictures[jobs[i].way]); });
-    for (std::size_t way = 0; way < ways.size(); ++way)
-        if (!pipeline::is_made_in_jobs(holograms, ways[way]))
-            photograph_one_by_one(holograms, cameras, ways[way], pictures[way],
+        [&](std::size_t i) {
+            return pipeline::photograph(jobs[i], holograms, cameras, models, progress.part(i, parts));
+        },
+        [&](std::size_t i, std::vector<Image>& colour_pictures) {
+            pipeline::put(jobs[i], colour_pictures, pictures[jobs[i].model_index]);
+        });
+    for (std::size_t model_index = 0; model_index < models.size(); ++model_index)
+        if (!pipeline::is_made_in_jobs(holograms, models[model_index]))
+            photograph_one_by_one(holograms, cameras, models[model_index], pictures[model_index],
                                   progress.part(jobs.size() + done++, parts));
     if (Communicator* const all = work::communicator_of_several())
-        for (std::vector<Image>& of_way : pictures)
-            for (Image& picture : of_way) work::broadcast_in_chunks<float>(*all, picture.pixels.elements());
+        for (std::vector<Image>& model_pictures : pictures)
+            for (Image& picture : model_pictures) work::broadcast_in_chunks<float>(*all, picture.pixels.elements());
     return pictures;
 }
 
@@ -184,12 +189,12 @@ Camera camera_for(double width, double height, std::size_t resolution) {
 }
 
 std::size_t enough_looks(const Camera& camera) {
-    const auto cells_in_pixel = [](const Camera& any) {
-        const double cell = resolution_cell(any, defaults.green);
-        return std::max(1.0, any.picture.pitch_x * any.picture.pitch_y / (cell * cell));
+    const auto cells_in_pixel = [](const Camera& one) {
+        const double cell = resolution_cell(one, defaults.green);
+        return std::max(1.0, one.picture.pitch_x * one.picture.pitch_y / (cell * cell));
     };
-    const double usual = cells_in_pixel(camera_for(defaults.size, defaults.size, defaults.resolution));
-    const double looks = static_cast<double>(defaults.looks) * usual / cells_in_pixel(camera);
+    const double usual_cells = cells_in_pixel(camera_for(defaults.size, defaults.size, defaults.resolution));
+    const double looks = static_cast<double>(defaults.looks) * usual_cells / cells_in_pixel(camera);
     return static_cast<std::size_t>(std::clamp(std::ceil(looks), 1.0, static_cast<double>(defaults.looks)));
 }
 

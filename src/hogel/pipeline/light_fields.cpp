@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the name of a scene to a light field that is rendered when it is read.
+// Light fields of named scenes, rendered when they are read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,18 +19,18 @@
 namespace hogel {
 namespace {
 
-// Light fields up to this size, in bytes, are kept in memory instead of being rendered each time they are read.
+// Maximum size of light fields that are kept in memory instead of being rendered for each read, bytes.
 constexpr double max_buffered_bytes = 2e9;
-// Maximum bytes of cached tiles for larger light fields.
+// Maximum size of cached tiles of larger light fields, bytes.
 constexpr double max_cached_tile_bytes = 1e9;
 
-// What the request alone says that this build cannot do.
+// Throws if the request needs a part that this build does not have.
 void require_built_in(const LightFieldRequest& request) {
     if (renderers().find(request.renderer).casts_rays)
         core::require_part("Embree", fmt::format("the renderer '{}'", request.renderer));
 }
 
-// A light field by the renderer simplex with interpolation between viewpoints.
+// Returns a light field rendered by simplex with interpolation between viewpoints.
 LightField::Source interpolated(const std::shared_ptr<const ShadedScene>& scene, const LightFieldGrid& grid,
                                 const LightFieldRequest& request) {
     if (request.renderer != "simplex")
@@ -100,10 +100,10 @@ LightField open_light_field_or_views(const std::filesystem::path& path, const Pr
 
 namespace {
 
-/// Whether more than half of a surface of some detail are triangles so large that shadows between their corners are
-/// missed or smeared.
+/// Returns whether large triangles cover more than half of the surface, in a scene with some detail. Shading at their
+/// corners would miss or smear shadows.
 bool has_large_triangles(const Scene& scene, double hologram_width) {
-    constexpr std::size_t some_detail = 13;  // triangles: a box throws no shadow on itself
+    constexpr std::size_t some_detail = 13;  // triangles: a box casts no shadow on itself
     if (triangle_count(scene) < some_detail) return false;
     double all = 0, large = 0;
     for (const Mesh& mesh : scene.meshes) {
@@ -118,25 +118,25 @@ bool has_large_triangles(const Scene& scene, double hologram_width) {
     return large > 0.5 * all;
 }
 
-/// The part of a scene's depth that is before the hologram's plane: as asked for, but no more than the hologram is wide
-/// or high. What stands further in front is behind the eye, or nowhere near it.
-double front_within_reach(const Bounds& box, const Fit& fit) {
+/// Returns the fraction of a scene's depth in front of the hologram plane: as requested, but at most the smaller side
+/// of the hologram. Parts further in front would be behind the eye or too close to it.
+double limited_front_of(const Bounds& box, const Fit& fit) {
     const Vec3 size = box.high - box.low;
     return std::min(fit.front, std::min(fit.width, fit.height) / (scene::fit_scale(size, fit) * size.z));
 }
 
-void fit_within_reach(Scene& scene, Fit fit) {
+void fit_with_limited_front(Scene& scene, Fit fit) {
     const Bounds box = bounds(scene);
-    const double within = front_within_reach(box, fit);
-    if (within < fit.front) {
-        scene.notes.push_back(
-            fmt::format("it is deep: {:.2g} of its depth is before the hologram instead of {:.2g}", within, fit.front));
-        fit.front = within;
+    const double limited_front = limited_front_of(box, fit);
+    if (limited_front < fit.front) {
+        scene.notes.push_back(fmt::format(
+            "it is deep: {:.2g} of its depth is in front of the hologram instead of {:.2g}", limited_front, fit.front));
+        fit.front = limited_front;
     }
     fit_scene(scene, fit);
 }
 
-/// Notes what only the shading model `direct` shows, where another is taken.
+/// Adds a note about metal, gloss and relief if another shading model than `direct` is selected.
 void note_gloss(Scene& scene, const ShadingOptions& options) {
     if (shading_model(scene, options) == "direct") return;
     const auto is_glossy = [](const Mesh& mesh) {
@@ -152,33 +152,33 @@ void note_gloss(Scene& scene, const ShadingOptions& options) {
                         scene.meshes.size()));
 }
 
-/// Turns and fits the scene of a file, or takes the view of its camera, and notes what was decided.
-void place_own(Scene& scene, const LightFieldRequest& request) {
+/// Rotates and fits the scene of a file, or uses the view of its camera, and adds notes about these decisions.
+void place_imported(Scene& scene, const LightFieldRequest& request) {
     const ScenePose& pose = request.pose;
     const Fit fit{.width = request.grid.width(), .height = request.grid.height(), .front = request.front};
     if (!pose.camera.empty()) {
         const SceneCamera camera = find_camera(scene, pose.camera);
         const double eye = frame_scene(scene, camera, fit);
         scene.notes.push_back(eye < std::numeric_limits<double>::infinity()
-                                  ? fmt::format("its camera sees it so from {} before the hologram", format_length(eye))
-                                  : "its camera has parallel rays: it sees it so from far away");
+                                  ? fmt::format("its camera is {} in front of the hologram", format_length(eye))
+                                  : "its camera is orthographic, infinitely far in front of the hologram");
         return;
     }
     if (!request.fit) {
         scene.up = {0, 1, 0};
     } else if (scene.up == Vec3{0, 0, 1} && !pose.up) {
-        scene.notes.push_back("files of this kind have z upwards; if it lies, turn it by --up y");
+        scene.notes.push_back("files of this kind have z upwards; if it lies on its back, add --up y");
     }
     if (!scene.cameras.empty()) {
         std::string names;
         for (std::size_t i = 0; i < std::min<std::size_t>(scene.cameras.size(), 4); ++i)
             names += fmt::format("{}'{}'", i == 0 ? "" : ", ",
                                  scene.cameras[i].name.empty() ? fmt::format("{}", i + 1) : scene.cameras[i].name);
-        scene.notes.push_back(fmt::format("it is seen from its front; --scene-camera takes the view of a camera: {}{}",
+        scene.notes.push_back(fmt::format("it is seen from its front; --scene-camera uses the view of a camera: {}{}",
                                           names, scene.cameras.size() > 4 ? " ..." : ""));
     }
     turn_scene(scene, pose);
-    if (request.fit) fit_within_reach(scene, fit);
+    if (request.fit) fit_with_limited_front(scene, fit);
 }
 
 }  // namespace
@@ -194,7 +194,7 @@ Scene load_scene(const std::string& name, const LightFieldRequest& request, cons
 
 Scene prepare_scene(Scene scene, const LightFieldRequest& request) {
     const double width = request.grid.width();
-    place_own(scene, request);
+    place_imported(scene, request);
     scene.has_large_triangles = has_large_triangles(scene, width);
     if (scene.lights.empty()) add_default_lights(scene);
     place_scene(scene, request.pose, width);

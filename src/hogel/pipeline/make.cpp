@@ -17,7 +17,7 @@
 namespace hogel {
 namespace {
 
-// The samples that a file of half floats would have, so that pictures do not depend on whether there is a file.
+// Samples rounded to half floats, as in a file, so that pictures do not depend on whether a file is written.
 class HalfFloats final : public LightFieldSource {
   public:
     explicit HalfFloats(LightField::Source source) : source_(std::move(source)) {}
@@ -36,7 +36,7 @@ class HalfFloats final : public LightFieldSource {
     LightField::Source source_;
 };
 
-// The stages of make(), one after the other.
+// Progress of the consecutive stages of make().
 class Stages {
   public:
     Stages(const MakeOptions& options, const Progress& progress, std::size_t count)
@@ -52,7 +52,7 @@ class Stages {
     std::size_t count_, next_ = 0;
 };
 
-// The photographs by one model.
+// Photographs by one camera model.
 struct Series {
     std::string stage;
     CameraModel model;
@@ -65,24 +65,24 @@ bool has_speckle_free(const MakeRequest& request, std::span<const LightFieldGrid
     return is_speckle_free_cheap(faces, request.hologram, cameras_of(request), request.camera);
 }
 
-// The photographs by waves, [stage][series]. The processes of a team share all of them in one stage, so that none waits
-// for the others between two.
+// Returns the photographs by waves, [stage][series]. Several ranks share all of them in one stage, so that no rank
+// waits for the others between stages.
 std::vector<std::vector<Series>> stages_of_waves(const MakeRequest& request, bool speckle_free) {
     std::vector<std::vector<Series>> stages;
     if (!std::holds_alternative<SpeckleFreeCamera>(request.camera))
         stages.push_back({{"photographs by waves", request.camera, &MadePhotographs::waves}});
     if (!speckle_free) return stages;
     const Series expected{"expected photographs", SpeckleFreeCamera(), &MadePhotographs::speckle_free};
-    const Communicator* const all = communicator();
-    if (all != nullptr && all->size() > 1 && !stages.empty())
+    const Communicator* const ranks = communicator();
+    if (ranks != nullptr && ranks->size() > 1 && !stages.empty())
         stages.front().push_back(expected);
     else
         stages.push_back({expected});
     return stages;
 }
 
-LightField kept(const LightField& rendered, const MakeRequest& request, const MakeOptions& options,
-                const Progress& progress) {
+LightField stored(const LightField& rendered, const MakeRequest& request, const MakeOptions& options,
+                  const Progress& progress) {
     LightFieldFileOptions file = options.light_field;
     file.with_depth = file.with_depth || needs_depth(request.hologram.method);
     if (!options.light_field_file.empty()) {
@@ -108,12 +108,12 @@ void photograph_series(Made& made, std::span<const Camera> cameras, std::span<co
             made.photographs[i].*series[k].image = ComparedImage{std::move(pictures[k][i]), {}};
 }
 
-// The channels of a picture by rays that the hologram shows, one for each wavelength.
+// Returns the channels of a picture by rays that the hologram shows, one per wavelength.
 Image shown_channels(Image rays, std::span<const Channel> channels) {
     const auto channel_of = [&](std::size_t c) { return rays.channels() == 1 ? 0 : channels[c].index; };
-    bool all = rays.channels() == channels.size();
-    for (std::size_t c = 0; c < channels.size(); ++c) all = all && channel_of(c) == c;
-    if (all) return rays;
+    bool are_same = rays.channels() == channels.size();
+    for (std::size_t c = 0; c < channels.size(); ++c) are_same = are_same && channel_of(c) == c;
+    if (are_same) return rays;
     Image shown(rays.width(), rays.height(), channels.size());
     for (std::size_t y = 0; y < rays.height(); ++y)
         for (std::size_t x = 0; x < rays.width(); ++x)
@@ -122,14 +122,14 @@ Image shown_channels(Image rays, std::span<const Channel> channels) {
     return shown;
 }
 
-// One exposure for all pictures, from the view from above.
+// Sets one exposure for all pictures, from the view from above, and compares them.
 void expose(Made& made) {
     std::vector<MadePhotographs>& photographs = made.photographs;
     made.exposure = automatic_exposure(photographs[std::min<std::size_t>(1, photographs.size() - 1)].rays);
     work::parallel_for(photographs.size(), [&](std::size_t i) {
-        MadePhotographs& by = photographs[i];
-        for (std::optional<ComparedImage>* const waves : {&by.waves, &by.speckle_free})
-            if (*waves) (*waves)->comparison = compare(by.rays, (*waves)->image, made.exposure);
+        MadePhotographs& photographs_of = photographs[i];
+        for (std::optional<ComparedImage>* const waves : {&photographs_of.waves, &photographs_of.speckle_free})
+            if (*waves) (*waves)->comparison = compare(photographs_of.rays, (*waves)->image, made.exposure);
     });
 }
 
@@ -139,7 +139,7 @@ Made make(const LightField& light_field, const MakeRequest& request, const MakeO
           const Progress& progress) {
     const core::StopScope scope(progress);
     if (request.cameras.empty() || request.hologram.looks == 0)
-        throw Error(ErrorCode::usage, "cameras and a number of looks were expected, which resolve() chooses");
+        throw Error(ErrorCode::usage, "expected cameras and a number of looks; resolve() selects them");
     const std::vector<Camera> cameras = cameras_of(request);
     std::vector<LightFieldGrid> faces = light_field.grids();
     std::ranges::transform(faces, faces.begin(), common_directions);
@@ -147,7 +147,7 @@ Made make(const LightField& light_field, const MakeRequest& request, const MakeO
     const std::vector<std::vector<Series>> waves = stages_of_waves(request, has_speckle_free(request, faces));
     Stages stages(options, progress, 2 + (options.hologram_file.empty() ? 0 : 1) + waves.size());
 
-    Made made{request, kept(light_field, request, options, stages.begin("light field")), {}, 1, {}};
+    Made made{request, stored(light_field, request, options, stages.begin("light field")), {}, 1, {}};
     made.holograms = make_holograms(with_common_directions(made.light_field), request.hologram);
     std::vector<Image> rays = photograph(made.light_field, cameras, request.rays, stages.begin("photographs by rays"));
     for (std::size_t i = 0; i < rays.size(); ++i)
@@ -186,14 +186,15 @@ void write_photographs(const std::filesystem::path& folder, const Made& made, co
         const Metadata& metadata;
     };
     std::vector<File> files;
-    for (const MadePhotographs& by : made.photographs)
+    for (const MadePhotographs& photographs_of : made.photographs)
         for (const char* extension : {".png", ".exr"}) {
             const auto add = [&](const std::string& name, const Image& image, const Metadata& entries) {
                 files.push_back({folder / (name + extension), image, entries});
             };
-            if (by.waves) add(by.camera.wave_file(), by.waves->image, waves);
-            if (by.speckle_free) add(by.camera.speckle_free_file(), by.speckle_free->image, speckle_free);
-            add(by.camera.ray_file(), by.rays, rays);
+            if (photographs_of.waves) add(photographs_of.camera.wave_file(), photographs_of.waves->image, waves);
+            if (photographs_of.speckle_free)
+                add(photographs_of.camera.speckle_free_file(), photographs_of.speckle_free->image, speckle_free);
+            add(photographs_of.camera.ray_file(), photographs_of.rays, rays);
         }
     work::parallel_for(files.size(), [&](std::size_t i) {
         write_image(files[i].path, files[i].image, made.exposure, files[i].metadata);

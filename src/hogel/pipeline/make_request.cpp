@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the recipe chooses: planes in focus, eyes, looks, the pitch, and whether to photograph without speckle.
+// Values selected by the recipe: planes in focus, viewpoints, looks, the pitch, and speckle-free photographs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,13 +35,13 @@ std::array<NamedFocus, 2> default_focuses(const Bounds& scene, double eye_distan
 std::array<NamedEye, 3> default_eyes(const LightFieldGrid& grid, double eye_distance, double pupil) {
     const double half_width = 0.5 * grid.pitch * static_cast<double>(std::max(grid.hogels_s, grid.hogels_t));
     const double margin = half_width + 0.5 * pupil, tangent = std::min(grid.half_u(), grid.half_v());
-    const double reach = eye_distance * tangent - margin;
-    if (!(reach > 0))
+    const double max_offset = eye_distance * tangent - margin;
+    if (!(max_offset > 0))
         throw Error(ErrorCode::usage, "eye_distance",
                     fmt::format("at {} the field of view does not cover the whole hologram; it does beyond {}",
                                 format_length(eye_distance), format_length(margin / tangent)));
-    const double aside = 0.7 * reach, z = eye_distance;
-    return {NamedEye{"left", {-aside, 0, z}}, NamedEye{"high", {0, aside, z}}, NamedEye{"right", {aside, 0, z}}};
+    const double offset = 0.7 * max_offset, z = eye_distance;
+    return {NamedEye{"left", {-offset, 0, z}}, NamedEye{"high", {0, offset, z}}, NamedEye{"right", {offset, 0, z}}};
 }
 
 MakeRequest resolve(MakeRequest request, const Bounds& scene) {

@@ -41,7 +41,7 @@ class Make : public ::testing::Test {
     std::filesystem::path folder_;
 };
 
-// The steps of the pipeline by hand.
+// Calls the steps of the pipeline one by one.
 TEST_F(Make, is_the_pipeline_in_one_call) {
     const Made made = make(scene_, request_);
     const MakeRequest resolved = resolve(request_, bounds(scene_));
@@ -61,7 +61,7 @@ TEST_F(Make, is_the_pipeline_in_one_call) {
         EXPECT_TRUE(equal(by.speckle_free->image, speckle_free[i])) << i;
         EXPECT_EQ(by.waves->comparison.psnr, compare(rays[i], waves[i], made.exposure).psnr);
         EXPECT_EQ(by.speckle_free->comparison.ssim, compare(rays[i], speckle_free[i], made.exposure).ssim);
-        // Without speckle a hologram looks more like its light field.
+        // Speckle-free photographs are closer to those of the light field.
         EXPECT_GT(by.speckle_free->comparison.psnr, by.waves->comparison.psnr);
     }
 }
@@ -109,7 +109,7 @@ TEST_F(Make, photographs_what_the_request_names) {
     request_.camera = BandCamera();
     request_.speckle_free = false;
     request_.hologram.channels = {{532_nm, 0}};
-    // Any light field is made a hologram of, not only that of a scene.
+    // Holograms are made of any light field, not only of one of a scene.
     request_.light_field.grid.channels = 1;
     const Made bright =
         make(light_field_from(request_.light_field.grid, [](double, double, double, double) { return 2; }), request_);
@@ -125,8 +125,8 @@ TEST_F(Make, methods_that_need_depth_have_it) {
     request_.cameras = {{"middle", "plane", camera_for(1_mm, 1_mm, 16)}};
     const Made made = make(scene_, request_);
     EXPECT_TRUE(made.light_field.has_depth());
-    EXPECT_FALSE(made.photographs[0].speckle_free);  // it is not known of this method
-    // The picture by rays shows what the one wavelength does.
+    EXPECT_FALSE(made.photographs[0].speckle_free);  // this method does not support it
+    // The picture by rays has the channel of the single wavelength.
     const Image all = photograph(made.light_field, request_.cameras[0].camera, request_.rays);
     EXPECT_EQ(made.photographs[0].rays.channels(), 1u);
     EXPECT_EQ(made.photographs[0].rays.pixels(8, 8, 0), all.pixels(8, 8, 1));
@@ -166,12 +166,12 @@ TEST(DefaultFocuses, are_within_the_scene_and_before_the_eye) {
         EXPECT_GE(near, std::max(front, -150_mm));
         EXPECT_LE(near, far);
         EXPECT_LE(far, back);
-        // As far from its end as the other from its own, unless that would be too near to the eye.
+        // As far from its end of the scene as the other focus, unless that is too close to the eye.
         EXPECT_TRUE(near == -150_mm || std::abs((near - front) - (back - far)) < 1e-12) << near;
     }
 }
 
-// From every eye all points of the pupil are in the field of view of every hogel, and there is room beyond.
+// For every viewpoint, all points of the pupil are in the field of view of every hogel, with a margin.
 TEST(DefaultEyes, see_the_whole_hologram_with_the_whole_pupil) {
     const double distance = 60_mm, pupil = 3_mm;
     for (const LightFieldGrid& grid : {LightFieldGrid{40, 40, 100_um, 16, 16, field_of_view(16_deg)},

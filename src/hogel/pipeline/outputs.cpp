@@ -13,7 +13,7 @@
 namespace hogel {
 namespace {
 
-// Copies the directions of one hogel of a row into a picture at a column.
+// Copies the directions of one hogel of a row to a column of a picture.
 void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::size_t column) {
     const auto& radiance = row.radiance;
     for (std::size_t c = 0; c < radiance.extent(0); ++c)
@@ -27,7 +27,7 @@ void paste(const LightFieldTile& row, std::size_t hogel, Image& picture, std::si
 std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder, const LightField& rays,
                                                         const PrinterImageOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
-    const LightField light_field = with_common_directions(rays);  // the same optics show every hogel
+    const LightField light_field = with_common_directions(rays);  // the optics are the same for all hogels
     if (!(options.exposure > 0)) throw Error(ErrorCode::usage, "exposure", "exposure: a positive number was expected");
     const LightFieldGrid& grid = light_field.grid();
     const std::size_t pictures = options.rows ? grid.hogels_t : grid.hogels();
@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
     const auto name = [&](std::size_t i) {
         return fmt::format("{}_{:0{}}.png", options.rows ? "row" : "hogel", i + 1, digits);
     };
-    // The hogel that is printed as the i-th of its row.
+    // Returns the index of the i-th printed hogel of a row.
     const auto hogel_at = [&](std::size_t i, std::size_t row) {
         return options.serpentine && row % 2 == 1 ? grid.hogels_s - 1 - i : i;
     };
@@ -66,9 +66,9 @@ std::vector<std::filesystem::path> write_printer_images(const std::filesystem::p
 
 void require_writable(const std::filesystem::path& file, std::span<const std::string> inputs) {
     core::require_target(file);
-    std::error_code none;
+    std::error_code error;
     for (const std::string& input : inputs)
-        if (std::filesystem::equivalent(file, input, none))
+        if (std::filesystem::equivalent(file, input, error))
             throw Error(
                 ErrorCode::usage,
                 fmt::format("{}: is an input, which the output would replace; expected another name", file.string()));
@@ -79,10 +79,10 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string describe_input(const std::string& name) {
-    std::error_code none;
-    const auto size = std::filesystem::file_size(name, none);
-    if (none) return name;
-    const auto date = std::filesystem::last_write_time(name, none).time_since_epoch();
+    std::error_code error;
+    const auto size = std::filesystem::file_size(name, error);
+    if (error) return name;
+    const auto date = std::filesystem::last_write_time(name, error).time_since_epoch();
     return fmt::format("{}, {} bytes, {} ns", name, size, std::chrono::nanoseconds(date).count());
 }
 

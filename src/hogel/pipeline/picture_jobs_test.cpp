@@ -16,7 +16,7 @@ using namespace hogel::literals;
 
 const CameraModel looks = BandCamera(), expected = SpeckleFreeCamera();
 
-// Five eyes with two focuses each, of a hologram in three colours.
+// Five viewpoints with two focuses each, of a hologram in three colours.
 class PictureJobsTest : public testing::Test {
   protected:
     PictureJobsTest() {
@@ -71,7 +71,7 @@ TEST_F(PictureJobsTest, are_none_of_cameras_that_need_samples) {
     EXPECT_TRUE(jobs({BandCamera{.vertical_diffuser = true}}).empty());
 }
 
-// Pictures are the same, whatever the jobs.
+// Pictures do not depend on the jobs.
 TEST_F(PictureJobsTest, do_not_change_pictures) {
     const std::vector<CameraModel> ways{looks, expected};
     const auto all = photograph_colours(holograms_, cameras_, ways);
@@ -79,10 +79,11 @@ TEST_F(PictureJobsTest, do_not_change_pictures) {
     ResumeScope kept(file, {});
     const auto by_jobs = photograph_colours(holograms_, cameras_, ways);
     kept.complete();
-    for (std::size_t way = 0; way < ways.size(); ++way)
+    for (std::size_t model_index = 0; model_index < ways.size(); ++model_index)
         for (std::size_t i = 0; i < cameras_.size(); ++i)
-            EXPECT_TRUE(std::ranges::equal(all[way][i].pixels.elements(), by_jobs[way][i].pixels.elements()))
-                << way << " " << i;
+            EXPECT_TRUE(
+                std::ranges::equal(all[model_index][i].pixels.elements(), by_jobs[model_index][i].pixels.elements()))
+                << model_index << " " << i;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// One over the largest modulus; 0 for a field that is zero.
+// Returns 1 / the largest modulus, or 0 for a zero field.
 float scale_of(View<const Complex, 2> samples) {
     float largest = 0;
     for (const Complex& value : samples.elements()) largest = std::max(largest, std::abs(value));

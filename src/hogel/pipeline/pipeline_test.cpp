@@ -68,7 +68,7 @@ TEST_F(Pipeline, provenance_travels_through_all_files) {
     }
 }
 
-/// A sheet as wide as high, in strips of that height and of columns of squares.
+/// A square sheet, in strips of its height that are divided into columns of squares.
 Scene sheet(std::size_t columns, std::size_t rows) {
     Scene scene;
     Mesh& mesh = scene.meshes.emplace_back();
@@ -102,14 +102,14 @@ TEST_F(Pipeline, large_triangles_of_a_file_are_lit_at_each_point) {
     EXPECT_EQ(model(squares, "direct"), "direct");
     EXPECT_EQ(model(few, "auto"), "vertex");
     EXPECT_EQ(model(load_scene("pumpkin", request_), "auto"), "vertex");
-    // Shadow maps larger than allowed are not taken unless they are asked for.
+    // Shadow maps larger than allowed are used only on request.
     EXPECT_EQ(shading_model(strips, {.model = "auto", .max_shadow_bytes = 1000}), "vertex");
     EXPECT_EQ(shading_model(strips, {.model = "direct", .max_shadow_bytes = 1000}), "direct");
     EXPECT_GT(shadow_map_bytes(strips, {.model = "auto"}), 0);
     EXPECT_EQ(shadow_map_bytes(squares, {.model = "auto"}), 0);
 }
 
-// Of a long street most would be behind the viewer.
+// Most of a long street would be behind the viewer.
 TEST_F(Pipeline, what_is_before_the_hologram_stays_within_reach) {
     Scene street;
     Mesh& mesh = street.meshes.emplace_back();
@@ -130,7 +130,7 @@ TEST_F(Pipeline, what_is_before_the_hologram_stays_within_reach) {
     EXPECT_NEAR(front(0, 0.3).first, 0, 1e-9);
 }
 
-// Gloss that the model does not show is said.
+// A note reports gloss that the model does not show.
 TEST_F(Pipeline, gloss_that_is_not_shown_is_noted) {
     Scene scene;
     Mesh& mesh = scene.meshes.emplace_back();
@@ -159,7 +159,7 @@ TEST_F(Pipeline, a_light_field_keeps_its_camera) {
     EXPECT_EQ(open_light_field(stream).provenance().camera, camera);
     EXPECT_EQ(prepare_for_reading(light_field, 3, false).provenance().camera, camera);
     EXPECT_EQ(make_holograms(light_field, holograms_).front()->provenance().camera, camera);
-    // A picture has the camera that took it and keeps the entry of the other one.
+    // The metadata of a picture have its own camera, and keep the entry of the earlier one.
     const Camera other = camera_for(2_mm, 2_mm, 10);
     const Image picture = photograph(light_field, {&other, 1}).front();
     EXPECT_EQ(picture.provenance.camera, other);
@@ -210,13 +210,13 @@ double psnr(const Image& a, const Image& b) {
     return 10 * std::log10(peak * peak * double(a.pixels.size()) / error);
 }
 
-// A hologram has the same directions everywhere. One of a light field with a fixed focal plane looks like one rendered
-// in directions in common, and each like the rays of the other.
+// All hogels of a hologram have the same directions. The hologram of a light field with a fixed focal plane looks like
+// that of a light field rendered with common directions, and each looks like the rays of the other.
 TEST_F(Pipeline, a_light_field_with_a_fixed_focal_plane_becomes_a_hologram) {
     request_.grid = {32, 32, 0.25_mm, 48, 48, field_of_view(16_deg)};
     const LightFieldGrid parallel = request_.grid;
     request_.grid.view = FocalPlane{parallel.range(), -100_mm};
-    // Far behind the hologram, so that neighbouring directions see different things.
+    // Far behind the hologram, so that neighbouring directions see different points.
     Scene scene = load_scene("sphere", request_);
     for (Mesh& mesh : scene.meshes)
         for (Vec3& p : mesh.positions) p.z -= 20_mm;
@@ -224,7 +224,7 @@ TEST_F(Pipeline, a_light_field_with_a_fixed_focal_plane_becomes_a_hologram) {
     LightFieldFileOptions file;
     file.type = SampleType::single;
     write_light_field(folder_ / "a.h5", through_plane, file);
-    holograms_.pitch = 1.25_um;  // directions in common reach farther than those of one hogel
+    holograms_.pitch = 1.25_um;  // the range of common directions is larger than that of one hogel
     const LightField opened = open_for_holograms(folder_ / "a.h5", holograms_, false);
     EXPECT_EQ(opened.grid(), common_directions(through_plane.grid()));
     EXPECT_NE(entry(opened.provenance(), "directions").find("-100 mm"), std::string::npos);
@@ -298,7 +298,7 @@ TEST_F(Pipeline, samples_that_are_no_numbers_are_not_taken_for_equal) {
     EXPECT_TRUE(std::isnan(compare(borrow(dark), borrow(broken)).max_error));
 }
 
-// Apart from its samples a file has a few kilobytes.
+// A file has a few kilobytes in addition to its samples.
 TEST_F(Pipeline, plans_know_the_size_of_files) {
     const LightField light_field = rendered();
     for (const SampleType type : {SampleType::half, SampleType::single}) {
@@ -339,7 +339,7 @@ TEST(Plan, of_photographs_by_rays_grows_with_the_points_of_the_pupil) {
     const Plan few = plan_ray_photographs(grids, {&camera, 1}, {1 << 10});
     const Plan many = plan_ray_photographs(grids, {&camera, 1}, {1 << 20});
     EXPECT_NEAR(many.seconds / few.seconds, 1024, 1e-6);
-    // The rays of few points are kept, of which each has places of eight bytes in rows and columns.
+    // The rays of few points are kept; each has positions of eight bytes in rows and columns.
     const double places = 2.0 * (static_cast<double>(camera.picture.width) + static_cast<double>(grids[0].hogels_s));
     EXPECT_NEAR(many.memory - few.memory, 32.0 * ((1 << 20) - (1 << 10)) - 8 * places * (1 << 10), 1);
     EXPECT_EQ(many.disk, 0);
@@ -354,7 +354,7 @@ TEST(Plan, of_oblique_projections_does_not_shrink_with_the_hogels) {
     const LightField rendered = render_light_field(scene, request);
     EXPECT_GT(plan_light_field(rendered, request, 10'000'000).seconds,
               100 * plan_light_field(rendered, request, 10'000).seconds);
-    // Its copies of all triangles and of those that a region sees.
+    // Its copies of all triangles, and of those visible from a region.
     request.renderer = "simploid";
     EXPECT_GE(plan_light_field(rendered, request, 10'000'000).memory,
               plan_light_field(rendered, request, 10'000).memory + 156.0 * 9'990'000);
@@ -419,7 +419,7 @@ TEST(Plan, of_photographs_counts_what_they_are_computed_from) {
     EXPECT_EQ(from(BandCamera{.source = BandSource::samples}), BandSource::samples);
     EXPECT_LT(1.5 * seconds(BandCamera()), seconds(BandCamera{.source = BandSource::samples}));
     EXPECT_LT(4 * seconds(SpeckleFreeCamera()), seconds(BandCamera()));
-    // Seen from so near, an eye takes in more than half of a hogel's samples.
+    // At this small distance, more than half of a hogel's samples enter the pupil.
     camera.eye.z = 60e-3;
     EXPECT_EQ(from(BandCamera()), BandSource::samples);
     EXPECT_EQ(from(SpeckleFreeCamera()), BandSource::hogel_spectra);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates of the resources of work: sums of what renderers, syntheses and cameras say that they take.
+// Estimates of memory, disk space and time: sums of the costs of renderers, syntheses and cameras.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ namespace {
 
 namespace rates = core::rates;
 
-// What a region of a face takes: its values, what the renderer needs and, with several samples per ray, a block of the
-// finer light field.
+// Returns the cost of a region of a face: its values, the renderer's cost and, with several samples per ray, a block of
+// the finer light field.
 RenderCost cost_of_region(const LightFieldSource& face, const LightFieldRequest& request, std::size_t values,
                           std::size_t triangles) {
     const auto tile_bytes = [&](const LightFieldGrid& grid, const HogelRange& region) {
@@ -36,12 +36,12 @@ RenderCost cost_of_region(const LightFieldSource& face, const LightFieldRequest&
         finely ? HogelRange{0, 0, request.samples.hogel * region.ns, request.samples.hogel * region.nt} : region;
     const RendererInfo& renderer = renderers().find(request.renderer);
     RenderCost cost = renderer.cost ? renderer.cost(grid, part, triangles) : RenderCost();
-    if (request.interpolate > 0) cost.bytes *= 2;  // colours beside depths
+    if (request.interpolate > 0) cost.bytes *= 2;  // colours in addition to depths
     cost.bytes += tile_bytes(face.grid(), region) + (finely ? tile_bytes(grid, part) : 0);
     return cost;
 }
 
-// The grids of all colours.
+// Returns the grids of all colours.
 std::vector<FieldGrid> grids_of(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
     std::vector<FieldGrid> grids;
     for (const Channel& channel : request.channels)
@@ -49,7 +49,7 @@ std::vector<FieldGrid> grids_of(std::span<const LightFieldGrid> faces, const Hol
     return grids;
 }
 
-// Seconds of the synthesis of one look of all colours.
+// Returns the seconds of the synthesis of one look of all colours.
 double seconds_of_synthesis(std::span<const FieldGrid> holograms) {
     double seconds = 0;
     for (const FieldGrid& hologram : holograms)
@@ -57,7 +57,7 @@ double seconds_of_synthesis(std::span<const FieldGrid> holograms) {
     return rates::on_all_threads(seconds);
 }
 
-// Resources of the mean of infinitely many looks, which needs no synthesis.
+// Returns the resources of speckle-free photographs, which need no synthesis.
 Plan plan_speckle_free(std::span<const FieldGrid> holograms, const LightFieldGrid& light_field,
                        std::span<const Camera> cameras, const SpeckleFreeCamera& model) {
     Plan sum;
@@ -82,20 +82,20 @@ Plan plan_light_field(const LightField& rendered, const LightFieldRequest& reque
         const HogelRange region = face->preferred_tile();
         const std::size_t regions =
             ((grid.hogels_s + region.ns - 1) / region.ns) * ((grid.hogels_t + region.nt - 1) / region.nt);
-        const auto at_once = static_cast<double>(std::min(thread_count(), regions)),
+        const auto in_parallel = static_cast<double>(std::min(thread_count(), regions)),
                    count = static_cast<double>(triangles);
         const RenderCost cost = cost_of_region(*face, request, values, triangles);
-        plan.memory = std::max(plan.memory, at_once * cost.bytes + count * cost.bytes_a_triangle);
+        plan.memory = std::max(plan.memory, in_parallel * cost.bytes + count * cost.bytes_a_triangle);
         const double rays = static_cast<double>(grid.directions()) * static_cast<double>(grid.hogels());
         const std::size_t sample = file.type == SampleType::half ? 2 : 4;
         plan.disk += rays * static_cast<double>(grid.channels * sample + (file.with_depth ? sizeof(float) : 0));
-        const double each = rates::ray + rates::ray_and_million_triangles * 1e-6 * count;
-        plan.seconds += rates::on_all_threads(rays * static_cast<double>(request.samples.count()) * each *
+        const double seconds_per_ray = rates::ray + rates::ray_and_million_triangles * 1e-6 * count;
+        plan.seconds += rates::on_all_threads(rays * static_cast<double>(request.samples.count()) * seconds_per_ray *
                                               renderers().find(request.renderer).time_of_a_ray) +
-                        cost.rays * static_cast<double>(regions) * rates::ray / at_once;
+                        cost.rays * static_cast<double>(regions) * rates::ray / in_parallel;
     }
-    // How long light takes where rays hit depends on lamps, textures and how many points the cache keeps, of which
-    // nothing was measured that would hold for other scenes. Models with shadow maps compute it there.
+    // Models with shadow maps compute light at the hit points. Its time depends on lamps, textures and the number of
+    // cached points; no measurement holds for other scenes.
     if (shading_models().find(request.shading.model).shadow_map_bytes) plan.seconds = 0;
     return plan;
 }
@@ -114,12 +114,11 @@ BandSourceChoice choose_band_source(std::span<const LightFieldGrid> faces, const
     if (std::holds_alternative<SpeckleFreeCamera>(model))
         return {BandSource::hogel_spectra, "the mean of infinitely many looks is a sum over hogels"};
     const auto* const band = std::get_if<BandCamera>(&model);
-    if (band == nullptr) return {BandSource::samples, "this camera model follows samples"};
+    if (band == nullptr) return {BandSource::samples, "this camera model needs samples"};
     if (band->source == BandSource::samples) return {BandSource::samples, "that was requested"};
     const std::vector<stereogram::HogelLayout> colours =
         camera::hogel_spectra::layouts_of(request.method, faces.front(), grids_of(faces, request));
-    if (colours.empty())
-        return {BandSource::samples, "this method has no hogels that are sums of as many waves as they have samples"};
+    if (colours.empty()) return {BandSource::samples, "hogels of this method do not have as many waves as samples"};
     std::size_t per_hogel = 0;
     for (const stereogram::HogelLayout& layout : colours)
         for (const camera::SharedViewpoint& eye : camera::group_by_viewpoint(cameras))
@@ -156,10 +155,10 @@ void require_resources(const Plan& plan, const std::string& what, const std::fil
         throw Error(ErrorCode::usage, fmt::format("{} takes {} of memory; expected at most the {} that are free", what,
                                                   format_bytes(plan.memory), format_bytes(available)));
     if (file.empty()) return;
-    std::error_code none;
+    std::error_code error;
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    const auto space = std::filesystem::space(folder, none);
-    if (!none && plan.disk > static_cast<double>(space.available))
+    const auto space = std::filesystem::space(folder, error);
+    if (!error && plan.disk > static_cast<double>(space.available))
         throw Error(ErrorCode::cannot_write,
                     fmt::format("{}: takes {} of disk, and {} are free", file.string(), format_bytes(plan.disk),
                                 format_bytes(static_cast<double>(space.available))));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that are placed again and again, and what of them a hologram shows.
+// Scenes that are placed repeatedly, and the sampling limits that they exceed.
 #include "hogel/pipeline.h"
 
 #include <fmt/format.h>
@@ -19,13 +19,13 @@ using namespace literals;
 
 namespace {
 
-// A length of three digits, as many as a person acts on; or what is just below it.
+// Returns a length rounded to three digits, or rounded down.
 std::string about(double metres, bool below = false) {
     const double unit = std::pow(10, std::floor(std::log10(metres)) - 2), digits = metres / unit;
     return format_length((below ? std::floor(digits) : std::round(digits)) * unit);
 }
 
-// The distance from the hologram of what of a scene is farthest from it, metres.
+// Returns the greatest distance of a scene from the hologram plane, metres.
 double greatest_depth(const Bounds& scene) { return std::max(std::abs(scene.low.z), std::abs(scene.high.z)); }
 
 void advise_pitch(const LightFieldGrid& grid, const HologramRequest& hologram, std::vector<Advice>& all) {
@@ -33,7 +33,7 @@ void advise_pitch(const LightFieldGrid& grid, const HologramRequest& hologram, s
     const double possible = stereogram::max_pitch(grid, shortest);
     const std::size_t samples = stereogram::samples_per_hogel(grid, hologram.pitch);
     const double pitch = grid.pitch / static_cast<double>(samples);
-    // A pitch beyond two hogels leaves the hogel without a sample.
+    // With a pitch above two hogels, a hogel has no sample.
     if (pitch <= possible && hologram.pitch <= 2 * grid.pitch) return;
     const double enough = grid.pitch / std::ceil(grid.pitch / possible * (1 - 1e-12));
     all.push_back(
@@ -101,7 +101,7 @@ std::vector<Advice> advise(const Bounds& scene, const LightFieldRequest& light_f
     const double depth = greatest_depth(scene);
     if (hologram.channels.empty()) return all;
     const LightFieldGrid front = light_field.grids().front();
-    // The sides of a hemicube show what the front's samples do not diffract.
+    // The sides of a hemicube show the directions that the front's samples do not diffract.
     if (!light_field.hemicube) advise_pitch(front, hologram, all);
     advise_directions(front, depth, all);
     advise_hogels(front, depth, hologram, all);

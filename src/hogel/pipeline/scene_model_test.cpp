@@ -30,7 +30,7 @@ class SceneModels : public ::testing::Test {
     HologramRequest holograms_;
 };
 
-// A scene that is turned, resized, lit and moved is, after any of that, the one that is loaded so at once.
+// After any rotation, resizing, lighting and shift, a scene equals one loaded with these settings.
 TEST_F(SceneModels, place_scenes_as_they_are_loaded) {
     const std::filesystem::path file = folder_ / "one.ply";
     std::ofstream(file) << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
@@ -66,7 +66,7 @@ const Advice* find(const std::vector<Advice>& all, const std::string& parameter)
     return nullptr;
 }
 
-// The value that is told would do, and a little less would not; require_holograms() agrees about pitches.
+// The advised value is enough, and a little less is not; require_holograms() agrees about pitches.
 TEST_F(SceneModels, advise_pitches_that_do_not_alias) {
     const std::vector<LightFieldGrid> faces = request_.grids();
     for (const double pitch : {1_um, 1.6_um, 1.7_um, 2_um, 5_um, 30_um, 150_um, 300_um}) {
@@ -93,7 +93,7 @@ TEST_F(SceneModels, advise_pitches_that_do_not_alias) {
     }
 }
 
-// Rays of neighbouring directions are a hogel apart at the depth that the number is for.
+// Rays of neighbouring directions are one hogel apart at the depth of the advice.
 TEST_F(SceneModels, advise_directions_and_hogels_for_the_depth) {
     for (const double depth : {0.5_mm, 3_mm, 20_mm, 60_mm}) {
         const Bounds scene{{-1e-3, -1e-3, -depth}, {1e-3, 1e-3, 0.2 * depth}};

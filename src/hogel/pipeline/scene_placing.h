@@ -7,11 +7,11 @@
 
 namespace hogel::pipeline {
 
-/// Throws unless a file of this name exists. A name that looks like a path is reported as a missing file, any other as
+/// Throws if no file of this name exists. The error of a name like a path reports a missing file, of another name
 /// an unknown scene.
 void require_scene_file(const std::string& name);
 
-/// Turns and places a built-in scene that was made for the request's hologram.
+/// Returns the built-in scene, rotated and placed for the request's hologram.
 Scene place_built_in(Scene scene, const LightFieldRequest& request);
 
 }  // namespace hogel::pipeline
