@@ -20,8 +20,8 @@ using namespace format;
 
 namespace {
 
-// The rule of "lossless": floats are mapped to whole numbers in the same order, without the lowest bits that are zero
-// in all samples of a tile.
+// Rule of "lossless": maps floats to whole numbers in the same order, without the low bits that are zero in all samples
+// of a tile.
 class Ordered {
   public:
     explicit Ordered(int zero_bits) : zero_bits_(zero_bits) {}
@@ -30,7 +30,7 @@ class Ordered {
         const auto bits = std::bit_cast<std::uint32_t>(value);
         return (bits >> 31 ? ~bits : bits | 1u << 31) >> zero_bits_;
     }
-    // The number of the nearest float whose lowest bits are zero.
+    // Returns the number of the nearest float with zero low bits.
     std::uint32_t nearest(float value) const {
         const std::uint32_t exact = Ordered(0).number(value), half = zero_bits_ > 0 ? 1u << (zero_bits_ - 1) : 0;
         return (exact > ~half ? exact : exact + half) >> zero_bits_;
@@ -48,21 +48,21 @@ class Ordered {
             zero_bits = std::min(zero_bits, std::countr_zero(std::bit_cast<std::uint32_t>(value)));
         return Ordered(zero_bits);
     }
-    // Reads the rule, and whether codes are those of single hogels or of rows of them.
+    // Reads the rule, and whether each code is of a single hogel or of a row of hogels.
     static std::pair<Ordered, bool> take(ByteReader& reader) {
         const auto bits = reader.take<std::uint8_t>();
         const int zero_bits = bits & (hogels_apart - 1);
         if (zero_bits > 31) reader.damaged("its floats have no bits");
         return {Ordered(zero_bits), (bits & hogels_apart) != 0};
     }
-    void put(ByteWriter& writer, bool apart) const {
-        writer.put(static_cast<std::uint8_t>(zero_bits_ | (apart ? hogels_apart : 0)));
+    void put(ByteWriter& writer, bool separate) const {
+        writer.put(static_cast<std::uint8_t>(zero_bits_ | (separate ? hogels_apart : 0)));
     }
 
-    // Special means +0.
+    // Returns the residual; `special` means +0.
     Residual residual(float value, float prediction) const {
         if (std::bit_cast<std::uint32_t>(value) == 0) return {0, true};
-        // Differences are taken modulo 2 to the number of bits of the numbers.
+        // Differences are modulo 2^n for numbers of n bits.
         const std::uint32_t difference = number(value) - nearest(prediction);
         return {static_cast<std::int32_t>(difference << zero_bits_) >> zero_bits_, false};
     }
@@ -81,20 +81,20 @@ class Ordered {
     int zero_bits_;
 };
 
-// The rule of "bounded": residuals are multiples of twice the error. Special means that the float itself follows.
+// Rule of "bounded": residuals are multiples of twice the error bound. Special means that the float follows.
 class Bounded {
   public:
     explicit Bounded(double max_error) : max_error_(max_error) {}
 
     static constexpr bool keeps_every_bit = false;
     static Bounded for_tile(const LightFieldTile&, double max_error) { return Bounded(max_error); }
-    // The sign of the bound is a flag: negative if each hogel has a code of its own.
+    // Reads the rule. The sign of the bound is a flag: negative if each hogel has a separate code.
     static std::pair<Bounded, bool> take(ByteReader& reader) {
         const double max_error = reader.take_double();
         if (!(max_error != 0 && std::isfinite(max_error))) reader.damaged("its bound is impossible");
         return {Bounded(std::abs(max_error)), max_error < 0};
     }
-    void put(ByteWriter& writer, bool apart) const { writer.put(apart ? -max_error_ : max_error_); }
+    void put(ByteWriter& writer, bool separate) const { writer.put(separate ? -max_error_ : max_error_); }
 
     float restore(const Residual& residual, float prediction) const {
         return static_cast<float>(static_cast<double>(prediction) + 2 * max_error_ * residual.number);
@@ -102,10 +102,10 @@ class Bounded {
     Residual residual(float value, float prediction) const {
         const double steps = std::nearbyint((static_cast<double>(value) - prediction) / (2 * max_error_));
         if (!(std::abs(steps) < 1 << 30)) return {0, true};
-        const Residual found{static_cast<std::int32_t>(steps), false};
+        const Residual rounded{static_cast<std::int32_t>(steps), false};
         // Rounding to a float may exceed the bound.
-        const double error = static_cast<double>(restore(found, prediction)) - value;
-        return std::abs(error) <= max_error_ ? found : Residual{0, true};
+        const double error = static_cast<double>(restore(rounded, prediction)) - value;
+        return std::abs(error) <= max_error_ ? rounded : Residual{0, true};
     }
 
     template <class Coder>
@@ -117,13 +117,13 @@ class Bounded {
     double max_error_;
 };
 
-// From this size on, a separate code for each hogel costs less than half a per cent.
-constexpr std::size_t min_own_code = 16384;
+// Minimum size, bytes, for which a separate code for each hogel costs less than half a per cent.
+constexpr std::size_t min_separate_code = 16384;
 
-// The nearest value that the coder of the prediction can code.
+// Returns the nearest value in the range of the prediction's coder.
 float codable_prediction(float value) { return std::isfinite(value) ? std::clamp(value, -0x1p60f, 0x1p60f) : 0; }
 
-// Calls use(index in the tile, context), which returns the residual, for the samples of a hogel.
+// Calls use(index in the tile, context) for the samples of a hogel; use() returns the residual.
 template <class Use>
 void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, const DirectionCross& counted,
                      Use&& use) {
@@ -134,20 +134,20 @@ void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, c
         for (std::size_t v = 0; v < shape[3]; ++v) {
             const auto [begin, end] = counted.columns(v, shape[4]);
             for (std::size_t u = begin; u < end; ++u) {
-                const auto at = static_cast<std::size_t>(&tile.radiance(c, t, s, v, u) - tile.radiance.data());
-                around[c].set(v, u, use(at, around[c].at(v, u, c > 0 ? &around[c - 1] : nullptr)));
+                const auto index = static_cast<std::size_t>(&tile.radiance(c, t, s, v, u) - tile.radiance.data());
+                around[c].set(v, u, use(index, around[c].at(v, u, c > 0 ? &around[c - 1] : nullptr)));
             }
         }
     }
 }
 
-// The contents of a tile's bytes.
+// Contents of a tile's bytes.
 template <class Rule>
 struct ExactTile {
     std::span<const std::uint8_t> prediction;
     Rule rule;
     bool hogels_apart;
-    std::vector<std::span<const std::uint8_t>> codes;  // one per hogel, row by row, or one per row of hogels
+    std::vector<std::span<const std::uint8_t>> codes;  // one per hogel, row-major, or one per row of hogels
 
     static ExactTile take(std::span<const std::uint8_t> bytes, const HogelRange& range) {
         ByteReader reader(bytes, "tile");
@@ -162,25 +162,25 @@ struct ExactTile {
         return tile;
     }
 
-    // Decodes the hogels of one code, beginning with (t, s), over their prediction.
+    // Decodes the hogels of one code, starting at (t, s), in place of their prediction.
     void decode(std::size_t code, LightFieldTile& tile, std::size_t t, std::size_t s,
                 const DirectionCross& counted) const {
-        const ByteReader whole({}, "tile");
+        const ByteReader error_reader({}, "tile");
         ResidualReader reader(codes[code]);
         const auto models = std::make_unique<ResidualModels>();
         for (const std::size_t end = hogels_apart ? s + 1 : tile.range.ns; s < end; ++s)
-            for_each_sample(tile, t, s, counted, [&](std::size_t at, const ResidualContexts::Context& context) {
+            for_each_sample(tile, t, s, counted, [&](std::size_t index, const ResidualContexts::Context& context) {
                 const Residual residual = code_residual(reader, *models, context, {});
-                float& value = tile.radiance.data()[at];
+                float& value = tile.radiance.data()[index];
                 value = residual.special ? rule.code_special(reader, 0) : rule.restore(residual, value);
                 return residual;
             });
-        if (reader.decoder.ended()) whole.damaged("it ends too early");
-        if (!reader.decoder.all_read()) whole.damaged("bytes are left over");
+        if (reader.decoder.ended()) error_reader.damaged("it ends too early");
+        if (!reader.decoder.all_read()) error_reader.damaged("bytes are left over");
     }
 };
 
-// A tile that is decoded on demand, by hogels or by rows of them. Decoded samples are kept.
+// Tile that is decoded on demand, by hogels or by rows of hogels. Decoded samples are cached.
 template <class Rule>
 class ExactDecoder final : public TileDecoder {
   public:
@@ -195,28 +195,28 @@ class ExactDecoder final : public TileDecoder {
           decoded_(range.hogels()) {}
 
     void read(LightFieldTile& part) override {
-        // A thread that waits inside must not start other work that waits for this tile.
+        // A thread that waits in here must not start other work that waits for this tile.
         work::isolate([&] {
             const std::lock_guard lock(mutex_);
-            HogelRange coded = part.range;  // whole codes
+            HogelRange coded = part.range;  // extended to complete codes
             if (!tile_.hogels_apart) {
                 coded.s0 = range_.s0;
                 coded.ns = range_.ns;
             }
-            const std::size_t across = tile_.hogels_apart ? coded.ns : 1, a_code = coded.ns / across;
+            const std::size_t across = tile_.hogels_apart ? coded.ns : 1, hogels_per_code = coded.ns / across;
             std::vector<std::size_t> missing;
             for (std::size_t n = 0; n < across * coded.nt; ++n)
                 if (!decoded(coded.t0 + n / across, coded.s0 + n % across)) missing.push_back(n);
             if (!missing.empty()) {
-                LightFieldTile made(grid_, coded, false);
-                prediction_->read(made);
+                LightFieldTile prediction(grid_, coded, false);
+                prediction_->read(prediction);
                 work::parallel_for(missing.size(), [&](std::size_t k) {
                     const std::size_t t = missing[k] / across, s = missing[k] % across;
-                    const std::size_t first = place(coded.t0 + t, coded.s0 + s);
-                    tile_.decode(first / a_code, made, t, s, counted_);
-                    for (std::size_t n = 0; n < a_code; ++n) {
+                    const std::size_t first = index_of(coded.t0 + t, coded.s0 + s);
+                    tile_.decode(first / hogels_per_code, prediction, t, s, counted_);
+                    for (std::size_t n = 0; n < hogels_per_code; ++n) {
                         const HogelRange hogel{coded.s0 + s + n, coded.t0 + t, 1, 1};
-                        copy_common(made, decoded_[first + n].emplace(grid_, hogel, false));
+                        copy_common(prediction, decoded_[first + n].emplace(grid_, hogel, false));
                     }
                 });
             }
@@ -228,8 +228,10 @@ class ExactDecoder final : public TileDecoder {
     }
 
   private:
-    std::size_t place(std::size_t t, std::size_t s) const { return (t - range_.t0) * range_.ns + s - range_.s0; }
-    const std::optional<LightFieldTile>& decoded(std::size_t t, std::size_t s) const { return decoded_[place(t, s)]; }
+    std::size_t index_of(std::size_t t, std::size_t s) const { return (t - range_.t0) * range_.ns + s - range_.s0; }
+    const std::optional<LightFieldTile>& decoded(std::size_t t, std::size_t s) const {
+        return decoded_[index_of(t, s)];
+    }
 
     std::vector<std::uint8_t> bytes_;
     ExactTile<Rule> tile_;
@@ -238,7 +240,7 @@ class ExactDecoder final : public TileDecoder {
     HogelRange range_;
     DirectionCross counted_;
     std::mutex mutex_;
-    std::vector<std::optional<LightFieldTile>> decoded_;  // hogels row by row
+    std::vector<std::optional<LightFieldTile>> decoded_;  // hogels, row-major
 };
 
 template <class Rule>
@@ -251,16 +253,16 @@ class ExactCoder final : public TileCoder {
     HogelRange preferred_tile(const LightFieldGrid& grid) const override { return predictor_->preferred_tile(grid); }
     std::size_t max_at_once() const override { return predictor_->max_at_once(); }
     bool takes_any_value() const override { return true; }
-    // The layers of the prediction, and one of residuals.
+    // Returns the number of layers of the prediction, plus one of residuals.
     std::size_t layers(const HogelRange& tile) const override { return predictor_->layers(tile) + 1; }
 
     Encoded encode(LightFieldTile& tile, double step, std::size_t) const override {
         ByteWriter writer;
         auto [decoded, layers] = encode_prediction(tile, step, writer);
         const Rule rule = Rule::for_tile(tile, max_error_);
-        const bool apart = hogels_apart(tile, rule, decoded);
-        rule.put(writer, apart);
-        encode_codes(tile, rule, decoded, apart, writer);
+        const bool separate = hogels_apart(tile, rule, decoded);
+        rule.put(writer, separate);
+        encode_codes(tile, rule, decoded, separate, writer);
         layers.push_back(writer.bytes.size());
         const double error = Rule::keeps_every_bit ? 0 : squared_error(tile, decoded, counted_);
         return {std::move(writer.bytes), error, std::move(layers)};
@@ -275,12 +277,12 @@ class ExactCoder final : public TileCoder {
     }
 
     std::unique_ptr<TileDecoder> open(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid,
-                                      const HogelRange& range, std::size_t wanted) const override {
+                                      const HogelRange& range, std::size_t requested) const override {
         const std::size_t layers_of_prediction = layers(range) - 1;
-        if (wanted <= layers_of_prediction) {
+        if (requested <= layers_of_prediction) {
             ByteReader reader(bytes, "tile");
-            reader.take<std::uint32_t>();  // the length of the whole prediction
-            return open_prediction(reader.take(reader.left()), grid, range, wanted);
+            reader.take<std::uint32_t>();  // the length of the prediction
+            return open_prediction(reader.take(reader.left()), grid, range, requested);
         }
         auto tile = ExactTile<Rule>::take(bytes, range);
         auto prediction = open_prediction(tile.prediction, grid, range, layers_of_prediction);
@@ -307,44 +309,44 @@ class ExactCoder final : public TileCoder {
         return {std::move(prediction), std::move(layers)};
     }
 
-    // Whether hogels are large enough for codes of their own, judged by the row in the middle.
+    // Returns whether hogels are large enough for separate codes, judged by the row in the middle.
     bool hogels_apart(const LightFieldTile& tile, const Rule& rule, const LightFieldTile& prediction) const {
         std::vector<std::size_t> bytes(tile.range.ns);
         work::parallel_for(bytes.size(), [&](std::size_t s) {
             bytes[s] = encode_code(tile, rule, prediction, tile.range.nt / 2, s, s + 1, nullptr).size();
         });
-        return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= min_own_code * bytes.size();
+        return std::accumulate(bytes.begin(), bytes.end(), std::size_t{0}) >= min_separate_code * bytes.size();
     }
 
-    // Codes hogels `begin` to `end` of a row. `decoded` receives their samples; it may be null, or the prediction
-    // itself.
+    // Codes hogels `begin` to `end` of a row, and stores their samples in `decoded`, which may be null or the
+    // prediction.
     std::vector<std::uint8_t> encode_code(const LightFieldTile& tile, const Rule& rule,
                                           const LightFieldTile& prediction, std::size_t t, std::size_t begin,
                                           std::size_t end, LightFieldTile* decoded) const {
         ResidualWriter writer;
         const auto models = std::make_unique<ResidualModels>();
         for (std::size_t s = begin; s < end; ++s)
-            for_each_sample(tile, t, s, counted_, [&](std::size_t at, const ResidualContexts::Context& context) {
-                const float value = tile.radiance.data()[at];
-                const float predicted = prediction.radiance.data()[at];
+            for_each_sample(tile, t, s, counted_, [&](std::size_t index, const ResidualContexts::Context& context) {
+                const float value = tile.radiance.data()[index];
+                const float predicted = prediction.radiance.data()[index];
                 const Residual residual = rule.residual(value, predicted);
                 code_residual(writer, *models, context, residual);
                 if (residual.special) rule.code_special(writer, value);
                 if (decoded)
-                    decoded->radiance.data()[at] = residual.special ? value : rule.restore(residual, predicted);
+                    decoded->radiance.data()[index] = residual.special ? value : rule.restore(residual, predicted);
                 return residual;
             });
         return writer.encoder.finish();
     }
 
     // Replaces the prediction by the decoded samples.
-    void encode_codes(const LightFieldTile& tile, const Rule& rule, LightFieldTile& prediction, bool apart,
+    void encode_codes(const LightFieldTile& tile, const Rule& rule, LightFieldTile& prediction, bool separate,
                       ByteWriter& bytes) const {
-        const std::size_t across = apart ? tile.range.ns : 1, a_code = tile.range.ns / across;
+        const std::size_t across = separate ? tile.range.ns : 1, hogels_per_code = tile.range.ns / across;
         std::vector<std::vector<std::uint8_t>> codes(across * tile.range.nt);
         work::parallel_for(codes.size(), [&](std::size_t k) {
             const std::size_t s = k % across;
-            codes[k] = encode_code(tile, rule, prediction, k / across, s, s + a_code, &prediction);
+            codes[k] = encode_code(tile, rule, prediction, k / across, s, s + hogels_per_code, &prediction);
         });
         for (const auto& code : codes) bytes.put(static_cast<std::uint32_t>(code.size()));
         for (const auto& code : codes) bytes.put(std::span(code));

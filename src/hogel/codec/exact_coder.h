@@ -7,9 +7,9 @@
 
 namespace hogel::codec {
 
-// Coders that use the coder "hogel" as a prediction and code the residual of each sample, either exactly ("lossless")
-// or within a bound ("bounded": |f − f'| <= max_error, values that are not finite are kept exactly). The step is that
-// of the prediction; it changes the size of a tile but not its quality.
+// Coders that use the coder "hogel" as a prediction and code the residual of each sample: exactly ("lossless"), or
+// within a bound ("bounded": |f − f'| <= max_error, non-finite values exactly). The step of the prediction changes the
+// size of a tile but not its quality.
 std::unique_ptr<TileCoder> make_lossless_coder(const LightFieldGrid& grid, const DirectionCross& counted);
 // @param max_error   used by encode(); decode() reads it from the tile
 std::unique_ptr<TileCoder> make_bounded_coder(const LightFieldGrid& grid, const DirectionCross& counted,

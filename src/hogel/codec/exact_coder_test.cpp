@@ -57,7 +57,7 @@ LightFieldBuffer with_odd_values(std::size_t channels) {
     return field;
 }
 
-// The nearest float with a significand of ten bits, as half floats have.
+// Returns the nearest float with a significand of ten bits, as half floats have.
 float ten_bits(float value) { return std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) + 0x1000u) & ~0x1FFFu); }
 
 TEST(Lossless, every_bit_comes_back) {

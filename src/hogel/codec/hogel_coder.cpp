@@ -30,21 +30,22 @@ namespace {
 // Larger tiles gain little (docs/decisions/0030-codec-prediction.md).
 constexpr std::size_t preferred_side = 32;
 constexpr std::size_t preferred_samples = std::size_t{1} << 27;
-// Growth of the step from one layer to the next. Content that all hogels share is best coded once and finely, so the
-// growth depends on how much of the first hogel its neighbours share. In a single row a layer has twice as many hogels
-// as all before it, not four times, so fewer hogels benefit.
+// Growth of the step from one layer to the next. Content shared by all hogels is best coded once and finely, so the
+// growth depends on the fraction of the first hogel that its neighbours share. In a single row, a layer has twice as
+// many hogels as all earlier layers, not four times, so fewer hogels benefit.
 constexpr float expected_growth = 1.35f;
 float growth_for(float shared, bool single_row) {
     const float growth = 1.27f + 0.63f * shared * shared * shared * shared;
     return single_row ? std::cbrt(growth) : growth;
 }
-// References on each side. The nearest ones are best if their blocks can be shifted by fractions of a direction;
-// otherwise a choice of more is better (docs/decisions/0030-codec-prediction.md).
+// Maximum number of references on each side. The nearest ones are best if their blocks can be shifted by fractions of a
+// direction; otherwise more references are better (docs/decisions/0030-codec-prediction.md).
 constexpr std::uint8_t max_references = 3;
-constexpr std::size_t counted_hogels = 48;    // hogels of a layer that are counted for the initial states of its models
+constexpr std::size_t counted_hogels =
+    48;  // number of hogels of a layer that determine the initial states of its models
 constexpr std::size_t tried_directions = 32;  // along a side of a window
 
-// Σ (picture − truth)² over the directions that count; the truth as red, green and blue.
+// Returns Σ (picture − truth)² over the counted directions; the truth as red, green and blue.
 double squared_error(const Picture& picture, const TileSetup& setup, const Picture& truth,
                      const DirectionCross& counted) {
     double sum = 0;
@@ -61,11 +62,10 @@ double squared_error(const Picture& picture, const TileSetup& setup, const Pictu
 constexpr std::size_t first_hogels = 9;
 using Estimates = std::array<encode::Estimate, first_hogels>;
 
-// Codes a tile layer by layer: first decides on all hogels of a layer, then writes their codes independently of each
-// other.
+// Codes a tile layer by layer: decides on all hogels of a layer, then writes their codes independently of each other.
 class TileEncoder {
   public:
-    // @param tile   its radiance is overwritten
+    // @param tile   radiance is overwritten
     TileEncoder(LightFieldTile& tile, const LightFieldGrid& grid, const DirectionCross& counted, float step,
                 std::uint8_t references)
         : tile_(tile),
@@ -88,7 +88,7 @@ class TileEncoder {
         return estimates;
     }
 
-    // Called after each wavefront; if it returns false, run() stops and returns nothing.
+    // Callback after each wavefront; if it returns false, run() stops and returns no code.
     using GoOn = std::function<bool(double error, std::size_t bytes)>;
     std::optional<TileCoder::Encoded> run(const Estimates& estimates, const GoOn& go_on = {}) {
         for (std::size_t k = 0; k < estimates.size(); ++k) estimated_[k] = estimates[k].disparities;
@@ -126,7 +126,7 @@ class TileEncoder {
         const Picture source = picture_of(tile_, setup_, hogel.s, hogel.t);
         Picture truth;
         if (source.size() > 1) truth = copy_of(tile_, setup_, hogel.s, hogel.t);
-        // This part of the tile is not read any more, so the hogel can be reconstructed in place.
+        // This part of the tile is not read again, so the hogel can be reconstructed in place.
         pictures_[k] = setup_.whole_blocks() ? as_in_tile(tile_, setup_, hogel.s, hogel.t) : setup_.blank();
         const auto warped = warped_blocks(hogel, coded_, setup_.grid, setup_.aspect);
         encode::KnownDisparities known{{}, warped, context_blocks(hogel)};
@@ -143,12 +143,12 @@ class TileEncoder {
             pictures_[k] = Picture();  // nothing refers to the last wavefront
     }
 
-    // Writes the hogels of a layer, from begin to end.
+    // Writes the hogels of a layer, `begin` to `end`.
     void write(std::size_t begin, std::size_t end) {
         // A part of the hogels suffices to determine the states of the models.
-        const std::size_t apart = 1 + (end - begin) / counted_hogels;
+        const std::size_t stride = 1 + (end - begin) / counted_hogels;
         std::vector<BitCount> counts(states_.count());
-        for (std::size_t k = begin; k < end; k += apart) count_bits(records_[k], counts);
+        for (std::size_t k = begin; k < end; k += stride) count_bits(records_[k], counts);
         const ModelStates states(counts, states_);
         const std::vector<coding::BitModel> models = states.models_in_order();
         std::vector<std::vector<std::uint8_t>> codes(end - begin);
@@ -176,7 +176,7 @@ class TileEncoder {
     std::array<std::vector<std::int16_t>, first_hogels> estimated_;  // disparities of the first hogels
     std::vector<CodedHogel> coded_;
     const BlockModelNumbers numbers_;
-    std::vector<BlockRecorder::Record> records_;  // syntax elements of the hogels, until they are written
+    std::vector<BlockRecorder::Record> records_;  // syntax elements of hogels that are not yet written
     std::vector<double> errors_;
     ModelStates states_;
     ByteWriter bytes_;
@@ -205,14 +205,14 @@ class ReferencesTrial {
     ReferencesTrial(const LightFieldTile& tile, const LightFieldGrid& grid, double step)
         : tile_(tile), grid_(grid), step_(step) {}
 
-    // The squared error plus λ times the bits; infinity if that is more than `max_cost`.
+    // Returns the squared error plus λ times the bits; infinity if that is more than `max_cost`.
     double cost(std::uint8_t references, double max_cost = std::numeric_limits<double>::infinity()) {
         std::array<std::atomic<double>, windows> costs{};
         std::atomic<bool> too_much = false;
         work::parallel_for(windows, [&](std::size_t n) {
             Window window = window_of(tile_, grid_, 1 + 2 * n);
-            const DirectionCross all;
-            TileEncoder encoder(window.tile, window.grid, all, static_cast<float>(step_), references);
+            const DirectionCross all_directions;
+            TileEncoder encoder(window.tile, window.grid, all_directions, static_cast<float>(step_), references);
             if (!estimates_[n]) estimates_[n] = encoder.estimate();
             const auto cost = [&](double error, std::size_t bytes) {
                 return error + encode::lambda * step_ * step_ * 8 * static_cast<double>(bytes);
@@ -235,16 +235,17 @@ class ReferencesTrial {
     std::array<std::optional<Estimates>, windows> estimates_;
 };
 
-// The best number of references, chosen for a rounded step so that the search for a step sees a function with few
+// Returns the best number of references for a rounded step, so that the search for a step sees a function with few
 // jumps.
 std::uint8_t best_references(const LightFieldTile& tile, const LightFieldGrid& grid, double step) {
     ReferencesTrial trial(tile, grid, std::exp2(std::round(2 * std::log2(step)) / 2));
-    // If the costs of the extremes differ by this factor, the numbers between them are not tried.
-    constexpr double far = 1.1, rounding = 1e-9;
-    const double many = trial.cost(max_references), one = trial.cost(1, far * many);
-    std::uint8_t best = many < one ? max_references : 1;
-    double min_cost = std::min(many, one);
-    if (std::max(many, one) > far * min_cost) return best;
+    // If the costs of the smallest and largest number differ by this factor, numbers in between are not tried.
+    constexpr double max_ratio = 1.1, rounding = 1e-9;
+    const double max_cost_references = trial.cost(max_references),
+                 cost_of_one = trial.cost(1, max_ratio * max_cost_references);
+    std::uint8_t best = max_cost_references < cost_of_one ? max_references : 1;
+    double min_cost = std::min(max_cost_references, cost_of_one);
+    if (std::max(max_cost_references, cost_of_one) > max_ratio * min_cost) return best;
     for (std::uint8_t between = 2; between < max_references; ++between) {
         const double cost = trial.cost(between, min_cost * (1 + rounding));
         if (!(cost < min_cost)) continue;
@@ -262,11 +263,11 @@ class HogelCoder final : public TileCoder {
         std::size_t side = preferred_side;
         while (side > 1 && side * side * decode::samples_in_blocks(grid) > preferred_samples) --side;
         // Makes tiles of nearly equal sizes instead of full ones and a narrow remainder.
-        const auto even = [&](std::size_t count) {
+        const auto nearly_equal = [&](std::size_t count) {
             const std::size_t tiles = (count + side - 1) / side;
             return (count + tiles - 1) / tiles;
         };
-        return {0, 0, even(grid.hogels_s), even(grid.hogels_t)};
+        return {0, 0, nearly_equal(grid.hogels_s), nearly_equal(grid.hogels_t)};
     }
 
     std::size_t max_at_once() const override { return 2; }

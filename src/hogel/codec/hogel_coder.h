@@ -7,8 +7,8 @@
 
 namespace hogel::codec {
 
-// The coder "hogel" (docs/codec.md): hogels are predicted from each other along disparities.
-// @param counted   the directions whose errors count
+// Returns the coder "hogel" (docs/codec.md), which predicts hogels from each other along disparities.
+// @param counted   directions included in the error
 std::unique_ptr<TileCoder> make_hogel_coder(const LightFieldGrid& grid, const DirectionCross& counted = {});
 
 }  // namespace hogel::codec

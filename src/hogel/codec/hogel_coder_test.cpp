@@ -25,7 +25,7 @@ LightFieldTile whole(const LightFieldBuffer& field) {
     return tile;
 }
 
-// A plane at a disparity of `disparity` directions with a pattern that directions sample well.
+// Returns a plane at a disparity of `disparity` directions with a pattern that directions sample well.
 LightFieldBuffer plane_at(double disparity, std::size_t hogels, std::size_t directions, std::size_t directions_v) {
     LightFieldGrid grid{hogels, hogels, 1e-3, directions, directions_v, Perspective{0.3, 0.25}, 1};
     LightFieldBuffer field(grid);

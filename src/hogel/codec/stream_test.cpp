@@ -120,7 +120,7 @@ TEST(Stream, of_frequencies_has_the_quality_asked_for) {
     }
 }
 
-// The error that reading a file throws, if any.
+// Returns the error that reading a file throws, if any.
 std::optional<ErrorCode> outcome(const std::filesystem::path& path) {
     try {
         const LightField source = open_stream(path);

@@ -14,7 +14,7 @@
 
 namespace hogel::codec {
 
-/// Whether decoding a tile's bytes throws, which must be Error(bad_input).
+/// Returns whether decoding a tile's bytes throws; the error must be Error(bad_input).
 inline bool refuses(const TileCoder& coder, std::span<const std::uint8_t> bytes, LightFieldTile tile) {
     try {
         coder.decode(bytes, tile);
@@ -25,8 +25,8 @@ inline bool refuses(const TileCoder& coder, std::span<const std::uint8_t> bytes,
     return false;
 }
 
-/// Truncates the code of a tile at every `cut`-th byte and appends to it, which must be refused; flips a bit of every
-/// `flip`-th byte, which must give a tile or be refused.
+/// Truncates the code of a tile at every `cut`-th byte and appends to it: decoding must fail. Flips a bit of every
+/// `flip`-th byte: decoding must yield a tile or fail.
 inline void expect_harmless_damage(const TileCoder& coder, const std::vector<std::uint8_t>& good,
                                    const LightFieldTile& tile, std::size_t cut, std::size_t flip) {
     EXPECT_FALSE(refuses(coder, good, tile));
@@ -42,12 +42,12 @@ inline void expect_harmless_damage(const TileCoder& coder, const std::vector<std
     EXPECT_TRUE(refuses(coder, longer, tile));
 }
 
-/// End of the header of a stream, where its checksum is.
+/// Returns the end of the header of a stream, the offset of its checksum.
 inline std::size_t end_of_header(const std::vector<std::uint8_t>& stream) {
     return 16 + (stream[12] | std::size_t{stream[13]} << 8);
 }
 
-/// The stream with a number in its header replaced and the checksum corrected.
+/// Returns the stream with a number in its header replaced and the checksum corrected.
 inline std::vector<std::uint8_t> with_number(std::vector<std::uint8_t> stream, std::size_t at, std::uint64_t value) {
     const std::size_t end = end_of_header(stream);
     for (std::size_t i = 0; i < 8; ++i) stream[at + i] = static_cast<std::uint8_t>(value >> (8 * i));

@@ -19,7 +19,7 @@
 
 namespace hogel::codec {
 
-// Two textured planes at different depths, the nearer one covering the middle, with a little noise.
+// Returns two textured planes at different depths, the nearer one covering the middle, with some noise.
 inline LightFieldBuffer textured_planes(std::size_t hogels_s, std::size_t hogels_t, std::size_t directions_u,
                                         std::size_t directions_v, std::size_t channels) {
     LightFieldGrid grid{hogels_s, hogels_t, 1e-3, directions_u, directions_v, Perspective{0.3, 0.3}, channels};
@@ -88,7 +88,7 @@ inline LightFieldBuffer decoded(const std::filesystem::path& path) {
     return field;
 }
 
-// The code of the error that a call throws, whose message must be one line; 0 if it throws none.
+// Returns the code of the error that a call throws, 0 if none. The message must be a single line.
 inline ErrorCode code_of(const std::function<void()>& call) {
     try {
         call();

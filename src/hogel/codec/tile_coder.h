@@ -9,23 +9,22 @@
 
 namespace hogel::codec {
 
-// A coder of coefficients for which [K]'s rule predicts sizes.
+// Coder with sizes that [K]'s rule predicts from a histogram of its coefficients.
 class CountsMagnitudes {
   public:
     virtual ~CountsMagnitudes() = default;
     // Counts the coefficients of all channels of a tile.
-    // @param tile   its radiance is overwritten
+    // @param tile   radiance is overwritten
     virtual coding::MagnitudeHistogram magnitudes(LightFieldTile& tile) const = 0;
 };
 
-// The coder of a light field's tiles: a row of coders(), or one of the two that a stream may name beside them,
-// "lossless" and "bounded".
-// @param counted   the directions whose errors count
-// Throws Error(usage) for a coder or transform that does not exist, or two that do not go together.
+// Returns the coder of a light field's tiles: a row of coders(), or "lossless" or "bounded", which a stream may also
+// name. Throws Error(usage) for an unknown coder or transform, or an impossible combination.
+// @param counted   directions included in the error
 std::unique_ptr<TileCoder> make_tile_coder(const CodingMethod& method, const LightFieldGrid& grid,
                                            const DirectionCross& counted = {});
 
-// The rows of coders() that reproduce [K] chapter 4: defined in thesis/zerotrees.
+// Returns the rows of coders() that reproduce [K] chapter 4: defined in thesis/zerotrees.
 std::vector<CoderInfo> thesis_coders();
 
 }  // namespace hogel::codec

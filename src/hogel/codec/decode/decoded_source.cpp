@@ -16,7 +16,7 @@ using namespace codec::format;
 
 namespace {
 
-// Reads the depth of a tile from the depth stream: values of `beyond` or more mean infinity.
+// Reads the depth of a tile from the depth stream; values of at least `beyond` mean infinity.
 void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& tile) {
     LightFieldTile values(coded.grid(), tile.range, false);
     coded.read(values);
@@ -25,7 +25,7 @@ void read_depth(const LightFieldSource& coded, double beyond, LightFieldTile& ti
     });
 }
 
-// A stream with a cache of the tiles that were decoded last.
+// Stream with a cache of recently decoded tiles.
 class DecodedStream {
   public:
     DecodedStream(const std::filesystem::path& path, const StreamOptions& options, bool coefficients,
@@ -52,18 +52,20 @@ class DecodedStream {
 
     const StreamHeader& info() const { return reader_.info(); }
 
-    // Reads a face: as many directions of a part as the tile has, starting at `place`.
-    void read(std::size_t part, Unfolding::Place place, LightFieldTile& tile) const {
+    // Reads a face: the directions of a part from `origin` on, in the number that the tile has.
+    void read(std::size_t part, Unfolding::Origin origin, LightFieldTile& tile) const {
         const Tiling& tiling = reader_.tiling();
         const HogelRange &r = tile.range, &size = tiling.size();
         const LightFieldGrid& grid = reader_.parts()[part];
-        // A whole tile of the stream is decoded directly into the caller's tile.
+        // A complete tile of the stream is decoded directly into the caller's tile.
         const std::size_t first = r.t0 / size.nt * tiling.across() + r.s0 / size.ns;
-        const bool whole = tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
-        if (tiling[first] == r && whole && recent_.capacity() < tiling.count()) return decode({part, first}, tile);
+        const bool has_all_directions =
+            tile.radiance.extent(3) == grid.directions_v && tile.radiance.extent(4) == grid.directions_u;
+        if (tiling[first] == r && has_all_directions && recent_.capacity() < tiling.count())
+            return decode({part, first}, tile);
         for (std::size_t t = r.t0 / size.nt; t * size.nt < r.t0 + r.nt; ++t)
             for (std::size_t s = r.s0 / size.ns; s * size.ns < r.s0 + r.ns; ++s)
-                read_common({part, t * tiling.across() + s}, place, tile);
+                read_common({part, t * tiling.across() + s}, origin, tile);
     }
 
   private:
@@ -74,7 +76,7 @@ class DecodedStream {
 
     using Decoder = std::unique_ptr<TileDecoder>;
 
-    // The coefficients of a whole tile.
+    // Coefficients of a complete tile.
     class Coefficients final : public TileDecoder {
       public:
         explicit Coefficients(LightFieldTile tile) : tile_(std::move(tile)) {}
@@ -97,16 +99,16 @@ class DecodedStream {
             reader.damaged(error.what());
         }
     }
-    static std::size_t layers_of(const StreamReader& reader, std::size_t wanted) {
+    static std::size_t layers_of(const StreamReader& reader, std::size_t requested) {
         const StreamInfo& info = reader.info();
-        const std::size_t all = info.layer_ends.size();
-        if (wanted > all)
+        const std::size_t count = info.layer_ends.size();
+        if (requested > count)
             throw Error(ErrorCode::usage, "layers",
-                        fmt::format("{} layers were asked for, expected 1 to {}", wanted, all));
-        if (wanted == 0) wanted = all;
-        if (wanted > info.layers_there)
-            reader.damaged(fmt::format("it is truncated: it has {} of {} layers", info.layers_there, all));
-        return wanted;
+                        fmt::format("{} layers were asked for, expected 1 to {}", requested, count));
+        if (requested == 0) requested = count;
+        if (requested > info.layers_there)
+            reader.damaged(fmt::format("it is truncated: it has {} of {} layers", info.layers_there, count));
+        return requested;
     }
     static std::size_t tile_bytes(const StreamReader& reader) {
         const LightFieldGrid& grid = reader.parts().front();
@@ -146,7 +148,7 @@ class DecodedStream {
     }
 
     // Copies the hogels that a tile of the stream shares with the requested tile.
-    void read_common(Index index, Unfolding::Place place, LightFieldTile& tile) const {
+    void read_common(Index index, Unfolding::Origin origin, LightFieldTile& tile) const {
         const auto decoder = recent_.get(index, [&] { return std::make_shared<const Decoder>(open(index)); });
         const LightFieldGrid& grid = reader_.parts()[index.part];
         const HogelRange of_stream = reader_.tiling()[index.tile];
@@ -157,7 +159,7 @@ class DecodedStream {
         common.nt = std::min(of_stream.t0 + of_stream.nt, tile.range.t0 + tile.range.nt) - common.t0;
         LightFieldTile part(grid, common, false);
         with_tile_named(index, [&] { (*decoder)->read(part); });
-        copy_common(part, tile, place.v, place.u);
+        copy_common(part, tile, origin.v, origin.u);
     }
 
     StreamReader reader_;
@@ -176,7 +178,7 @@ class DecodedFace final : public LightFieldSource {
         : stream_(std::move(stream)), depth_(std::move(depth)), grid_(stream_->info().faces()[face]), part_(face) {
         if (stream_->info().layout != StreamLayout::unfolded) return;
         part_ = 0;
-        place_ = Unfolding(stream_->info().faces()).place(grid_.face());
+        origin_ = Unfolding(stream_->info().faces()).origin(grid_.face());
     }
 
     const LightFieldGrid& grid() const override { return grid_; }
@@ -184,7 +186,7 @@ class DecodedFace final : public LightFieldSource {
     HogelRange preferred_tile() const override { return stream_->info().tile; }
     void read(LightFieldTile& tile) const override {
         validate(tile, grid_);
-        stream_->read(part_, place_, tile);
+        stream_->read(part_, origin_, tile);
         stream_->info().companding.undo(tile.radiance.view());
         if (depth_ && tile.depth.size() > 0) read_depth(*depth_, stream_->info().depth.beyond, tile);
     }
@@ -194,7 +196,7 @@ class DecodedFace final : public LightFieldSource {
     std::unique_ptr<LightFieldSource> depth_;
     LightFieldGrid grid_;
     std::size_t part_;
-    Unfolding::Place place_{0, 0};
+    Unfolding::Origin origin_{0, 0};
 };
 
 }  // namespace
@@ -205,7 +207,7 @@ LightField open_stream(const std::filesystem::path& path, const StreamOptions& o
     std::shared_ptr<const DecodedStream> depth;
     if (info.depth_there || (info.depth.bytes > 0 && options.layers == 0))
         depth = std::make_shared<const DecodedStream>(path, StreamOptions{.memory = options.memory}, false,
-                                                      StreamReader::Content::its_depth);
+                                                      StreamReader::Content::depth);
     std::vector<LightField::Source> faces;
     for (std::size_t face = 0; face <= info.sides.size(); ++face)
         faces.push_back(std::make_shared<DecodedFace>(

@@ -36,7 +36,7 @@ HogelDecoder::HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid
     : bytes_(std::move(bytes)),
       range_(range),
       setup_(setup_from(bytes_, grid, range)),
-      place_(range.hogels()),
+      order_index_(range.hogels()),
       coded_(range.hogels()),
       syntax_read_(range.hogels()),
       wanted_(range.hogels()),
@@ -44,7 +44,7 @@ HogelDecoder::HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid
       pictures_(range.hogels()),
       complete_(range.hogels()) {
     const auto& order = setup_.order.hogels();
-    for (std::size_t k = 0; k < order.size(); ++k) place_[order[k].t * range.ns + order[k].s] = k;
+    for (std::size_t k = 0; k < order.size(); ++k) order_index_[order[k].t * range.ns + order[k].s] = k;
     take_layers(layers);
 }
 
@@ -74,7 +74,7 @@ void HogelDecoder::take_layers(std::size_t layers) {
 std::vector<std::size_t> HogelDecoder::code_bytes() const {
     std::vector<std::size_t> bytes(range_.hogels());
     for (std::size_t hogel = 0; hogel < bytes.size(); ++hogel)
-        if (place_[hogel] < codes_.size()) bytes[hogel] = codes_[place_[hogel]].size();
+        if (order_index_[hogel] < codes_.size()) bytes[hogel] = codes_[order_index_[hogel]].size();
     return bytes;
 }
 
@@ -82,8 +82,8 @@ void HogelDecoder::read(LightFieldTile& part) {
     std::vector<std::size_t> wanted;
     for (std::size_t t = part.range.t0; t < part.range.t0 + part.range.nt; ++t)
         for (std::size_t s = part.range.s0; s < part.range.s0 + part.range.ns; ++s)
-            wanted.push_back(place_[(t - range_.t0) * range_.ns + s - range_.s0]);
-    // A thread that waits inside must not start other work that waits for this tile.
+            wanted.push_back(order_index_[(t - range_.t0) * range_.ns + s - range_.s0]);
+    // A thread that waits in here must not start other work that waits for this tile.
     work::isolate([&] {
         if (!std::ranges::all_of(wanted, [&](std::size_t k) { return complete_[k].load(); })) {
             const std::lock_guard lock(mutex_);
@@ -107,7 +107,7 @@ const std::vector<Block>* HogelDecoder::context_blocks(std::size_t hogel) const 
     return references.empty() ? nullptr : &coded_[references.front().hogel].blocks;
 }
 
-// Reads the syntax elements of hogel k. Those of its context references must be known.
+// Reads the syntax elements of hogel k. The elements of its context references must be known.
 void HogelDecoder::read_syntax(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
     const auto warped = warped_blocks(hogel, coded_, setup_.grid, setup_.aspect);
@@ -117,16 +117,16 @@ void HogelDecoder::read_syntax(std::size_t k) {
         coded_[k].levels.reserve(std::min(codes_[k].size() / bytes_of_levels, setup_.grid.count()));
         BlockModels models = models_[static_cast<std::size_t>(hogel.layer)];
         code_hogel(reader, models, setup_.grid, hogel, warped, context_blocks(k), coded_[k]);
-        const ByteReader whole({}, "tile");
-        if (reader.ended()) whole.damaged("it ends too early");
-        if (!reader.all_read()) whole.damaged("bytes are left over");
+        const ByteReader tile({}, "tile");
+        if (reader.ended()) tile.damaged("it ends too early");
+        if (!reader.all_read()) tile.damaged("bytes are left over");
     } else {
         predict_syntax(setup_.grid, warped, context_blocks(k), coded_[k]);
     }
     syntax_read_[k] = true;
 }
 
-// Reads the syntax elements of hogels, and before them those of their context references, on all threads.
+// Reads the syntax elements of hogels, after those of their context references, on all threads.
 void HogelDecoder::read_syntax_in_wavefronts(const std::vector<std::size_t>& wanted) {
     const auto& order = setup_.order.hogels();
     std::vector<bool> needed(order.size());
@@ -136,10 +136,10 @@ void HogelDecoder::read_syntax_in_wavefronts(const std::vector<std::size_t>& wan
             for (const HogelOrder::Reference& reference : order[k].context_references) needed[reference.hogel] = true;
     const auto& wavefronts = setup_.order.wavefronts();
     for (std::size_t wavefront = 0; wavefront + 1 < wavefronts.size(); ++wavefront) {
-        std::vector<std::size_t> now;
+        std::vector<std::size_t> batch;
         for (std::size_t k = wavefronts[wavefront]; k < wavefronts[wavefront + 1]; ++k)
-            if (needed[k] && !syntax_read_[k]) now.push_back(k);
-        work::parallel_for(now.size(), [&](std::size_t n) { read_syntax(now[n]); });
+            if (needed[k] && !syntax_read_[k]) batch.push_back(k);
+        work::parallel_for(batch.size(), [&](std::size_t n) { read_syntax(batch[n]); });
     }
 }
 
@@ -150,7 +150,7 @@ void HogelDecoder::want_block(std::size_t k, std::size_t column, std::size_t row
     wanted_[k] = true;
 }
 
-// Marks all blocks, of this and of other hogels, on which the wanted blocks of this hogel depend.
+// Marks all blocks, of this and other hogels, on which the wanted blocks of this hogel depend.
 void HogelDecoder::want_references(std::size_t k) {
     const HogelOrder::Hogel& hogel = setup_.order.hogels()[k];
     ReferenceWeights weights(hogel, setup_.noise, setup_.aspect);
@@ -199,21 +199,21 @@ void HogelDecoder::decode(const std::vector<std::size_t>& wanted) {
     const std::size_t wavefronts = setup_.order.wavefronts().size() - 1;
     if (wanted.size() < range_.hogels())
         for (std::size_t wavefront = wavefronts; wavefront-- > 0;) {
-            const std::vector<std::size_t> now = wanted_of_wavefront(wavefront);
-            read_syntax_in_wavefronts(now);
-            for (const std::size_t k : now) want_references(k);
+            const std::vector<std::size_t> batch = wanted_of_wavefront(wavefront);
+            read_syntax_in_wavefronts(batch);
+            for (const std::size_t k : batch) want_references(k);
         }
     for (std::size_t wavefront = 0; wavefront < wavefronts; ++wavefront) {
-        const std::vector<std::size_t> now = wanted_of_wavefront(wavefront);
-        work::parallel_for(now.size(), [&](std::size_t n) { reconstruct_wanted(now[n]); });
+        const std::vector<std::size_t> batch = wanted_of_wavefront(wavefront);
+        work::parallel_for(batch.size(), [&](std::size_t n) { reconstruct_wanted(batch[n]); });
     }
 }
 
 std::vector<std::size_t> HogelDecoder::wanted_of_wavefront(std::size_t wavefront) const {
-    std::vector<std::size_t> found;
+    std::vector<std::size_t> hogels;
     for (std::size_t k = setup_.order.wavefronts()[wavefront]; k < setup_.order.wavefronts()[wavefront + 1]; ++k)
-        if (wanted_[k]) found.push_back(k);
-    return found;
+        if (wanted_[k]) hogels.push_back(k);
+    return hogels;
 }
 
 std::size_t HogelDecoder::hogels_read() const {
@@ -225,8 +225,8 @@ std::size_t HogelDecoder::blocks_reconstructed() const {
 }
 
 std::size_t samples_in_blocks(const LightFieldGrid& grid) {
-    const auto whole = [](std::size_t n) { return (n + block_side - 1) / block_side * block_side; };
-    return whole(grid.directions_u) * whole(grid.directions_v) * grid.channels;
+    const auto padded = [](std::size_t n) { return (n + block_side - 1) / block_side * block_side; };
+    return padded(grid.directions_u) * padded(grid.directions_v) * grid.channels;
 }
 
 bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range) {

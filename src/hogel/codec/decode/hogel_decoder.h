@@ -9,20 +9,20 @@
 
 namespace hogel::codec::decode {
 
-// Decodes a tile of the coder "hogel" on demand. A hogel needs the syntax elements of the hogels that it is predicted
-// from, but only those blocks of their samples that predict its own. Decoded hogels and blocks are kept.
+// Decodes a tile of the coder "hogel" on demand. A hogel needs the syntax elements of its references, but only the
+// blocks of their samples from which it is predicted. Decoded hogels and blocks are cached.
 class HogelDecoder final : public TileDecoder {
   public:
-    // @param layers   number of layers in `bytes`; the syntax elements of hogels of further layers are predicted Throws
-    //                 Error(bad_input).
+    // Throws Error(bad_input).
+    // @param layers   number of layers in `bytes`; the syntax elements of hogels in further layers are predicted
     HogelDecoder(std::vector<std::uint8_t> bytes, const LightFieldGrid& grid, const HogelRange& range,
                  std::size_t layers);
     void read(LightFieldTile& part) override;
 
-    // The bytes of each hogel's own code, [t][s]; 0 for hogels of further layers.
+    // Returns the bytes of each hogel's code, [t][s]; 0 for hogels in further layers.
     std::vector<std::size_t> code_bytes() const;
 
-    // Statistics for tests: hogels whose syntax elements are known, and blocks that have been reconstructed.
+    // Statistics for tests: number of hogels with known syntax elements, and of reconstructed blocks.
     std::size_t hogels_read() const;
     std::size_t blocks_reconstructed() const;
 
@@ -41,21 +41,21 @@ class HogelDecoder final : public TileDecoder {
     std::vector<std::uint8_t> bytes_;
     HogelRange range_;
     format::TileSetup setup_;
-    std::vector<std::size_t> place_;                    // [hogel, row by row]: its index in the order
+    std::vector<std::size_t> order_index_;              // [hogel, row-major]: index in the order
     std::vector<format::BlockModels> models_;           // one per layer, in their initial states
     std::vector<std::span<const std::uint8_t>> codes_;  // one per hogel of these layers
 
     std::mutex mutex_;  // guards all members below, except complete pictures
     std::vector<format::CodedHogel> coded_;
     std::vector<std::uint8_t> syntax_read_, wanted_;  // one bool per hogel
-    std::vector<format::BlockState> blocks_;          // of all hogels
+    std::vector<format::BlockState> blocks_;          // blocks of all hogels
     std::vector<format::Picture> pictures_;
     std::vector<std::atomic<bool>> complete_;
 };
 
-// The number of samples of a hogel padded to whole blocks.
+// Returns the number of samples of a hogel padded to whole blocks.
 std::size_t samples_in_blocks(const LightFieldGrid& grid);
-// Whether a tile is within the limits of the format.
+// Returns whether a tile is within the limits of the format.
 bool hogel_tile_fits(const LightFieldGrid& grid, const HogelRange& range);
 constexpr std::size_t max_hogel_tile_side = 64;
 constexpr std::size_t max_hogel_tile_samples = std::size_t{1} << 28;

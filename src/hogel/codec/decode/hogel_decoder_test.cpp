@@ -41,7 +41,7 @@ struct Example {
         const auto end = encoded.bytes.begin() + std::ptrdiff_t(encoded.layers[layers - 1]);
         return {{encoded.bytes.begin(), end}, field.grid(), whole, layers};
     }
-    // Whether a part has the samples of the whole.
+    // Returns whether a part has the samples of the whole.
     bool has(const LightFieldTile& part) const {
         LightFieldTile expected(field.grid(), part.range, false);
         copy_common(decoded, expected);

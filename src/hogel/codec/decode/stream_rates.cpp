@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a stream's bytes are spread over hogels.
+// Distribution of a stream's bytes over hogels.
 #include "hogel/compress.h"
 
 #include <fmt/format.h>
@@ -20,10 +20,11 @@ using namespace codec::format;
 
 namespace {
 
-// The bytes of each hogel's own code in a tile, [t][s]. Coders that code a tile's hogels together have none.
-std::vector<std::size_t> own_bytes(const StreamInfo& info, const TileCoder& coder,
-                                   const std::vector<std::uint8_t>& code, const LightFieldGrid& grid,
-                                   const HogelRange& range, std::size_t layers) {
+// Returns the bytes of each hogel's code in a tile, [t][s]. Coders that code a tile's hogels together have no such
+// codes.
+std::vector<std::size_t> hogel_code_bytes(const StreamInfo& info, const TileCoder& coder,
+                                          const std::vector<std::uint8_t>& code, const LightFieldGrid& grid,
+                                          const HogelRange& range, std::size_t layers) {
     if (info.method.coder == "hogel") {
         const std::unique_ptr<TileDecoder> tile = coder.open(code, grid, range, std::min(layers, coder.layers(range)));
         if (const auto* by_hogels = dynamic_cast<const decode::HogelDecoder*>(tile.get()))
@@ -51,12 +52,13 @@ Array<double, 2> bytes_of_hogels(const std::filesystem::path& path, std::size_t 
                             static_cast<double>(tiling.count() * reader.parts().size()));
             const std::vector<std::uint8_t> code = reader.read(part * tiling.count() + tile, layers);
             const HogelRange range = tiling[tile];
-            const std::vector<std::size_t> own = own_bytes(info, *coder, code, grid, range, layers);
-            const std::size_t shared = code.size() - std::accumulate(own.begin(), own.end(), std::size_t{0});
+            const std::vector<std::size_t> code_bytes = hogel_code_bytes(info, *coder, code, grid, range, layers);
+            const std::size_t shared =
+                code.size() - std::accumulate(code_bytes.begin(), code_bytes.end(), std::size_t{0});
             const double share = static_cast<double>(shared) / static_cast<double>(range.hogels());
             for (std::size_t t = 0; t < range.nt; ++t)
                 for (std::size_t s = 0; s < range.ns; ++s)
-                    of_hogels(range.t0 + t, range.s0 + s) += static_cast<double>(own[t * range.ns + s]) + share;
+                    of_hogels(range.t0 + t, range.s0 + s) += static_cast<double>(code_bytes[t * range.ns + s]) + share;
         }
     }
     progress.report(1);

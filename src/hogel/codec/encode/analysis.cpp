@@ -88,13 +88,13 @@ class Analysis {
 
     void try_intra(const BlockSamples& target, float bits, float min_cost, Block& block) {
         for (int predictor = 0; predictor < intra_predictors; ++predictor) {
-            predict_intra(picture_[0], x_, y_, predictor, other_.prediction);
-            float cost = squared_difference(other_.prediction, target);
-            // All hogels are predicted from the first one, so each predictor is tried including the quantisation of its
-            // residual.
+            predict_intra(picture_[0], x_, y_, predictor, alternative_.prediction);
+            float cost = squared_difference(alternative_.prediction, target);
+            // All hogels are predicted from the first hogel, so each predictor is tried including the quantisation of
+            // its residual.
             if (first_) {
-                quantise_channel(target, cost, true, other_);
-                cost = other_.cost;
+                quantise_channel(target, cost, true, alternative_);
+                cost = alternative_.cost;
             }
             cost += rate_weight_ * (bits + bits_of_predictor(predictor));
             if (cost < min_cost) {
@@ -105,13 +105,13 @@ class Analysis {
         }
     }
 
-    // Tries partitions and neighbouring disparities if the block still costs much.
+    // Tries partitions and neighbouring disparities if the cost of the block is still high.
     void improve(const BlockSamples& target, const Candidates& candidates, Block& block) {
         const BlockSearch::Found& best = search_.found();
         const auto offer_partitions = [&] {
             partitions_.add(best.disparity);
-            if (const auto partitioned = partitions_.best(other_.prediction))
-                offer(*partitioned, target, squared_difference(other_.prediction, target), block);
+            if (const auto partitioned = partitions_.best(alternative_.prediction))
+                offer(*partitioned, target, squared_difference(alternative_.prediction, target), block);
         };
         const float min_cost = rate_weight_ * (of_partitions + min_gain_of_partitions);
         if (channel_.cost > min_cost) {
@@ -119,26 +119,26 @@ class Analysis {
             offer_partitions();
         }
         if (channel_.cost > search_.wide_search_cost() && block.mode != mode_intra && search_.look_around()) {
-            Block whole;
-            whole.mode = best.mode;
-            whole.disparity = best.disparity;
-            other_.prediction = *best.prediction;
-            offer(whole, target, best.error, block);
+            Block unpartitioned;
+            unpartitioned.mode = best.mode;
+            unpartitioned.disparity = best.disparity;
+            alternative_.prediction = *best.prediction;
+            offer(unpartitioned, target, best.error, block);
             if (channel_.cost > min_cost) offer_partitions();
         }
     }
 
-    // Replaces the block by `other`, whose prediction is in other_, if that costs less.
+    // Replaces the block by `other`, with its prediction in alternative_, if it costs less.
     void offer(const Block& other, const BlockSamples& target, float error, Block& block) {
-        quantise_channel(target, error, false, other_);
-        if (!(other_.cost + rate_weight_ * bits_of_partitions(other) <
+        quantise_channel(target, error, false, alternative_);
+        if (!(alternative_.cost + rate_weight_ * bits_of_partitions(other) <
               channel_.cost + rate_weight_ * bits_of_partitions(block)))
             return;
         block = other;
-        std::swap(channel_, other_);
+        std::swap(channel_, alternative_);
     }
 
-    // Predicts a channel as the block's syntax elements say.
+    // Predicts a channel from the block's syntax elements, and quantises its residual.
     void predict_and_quantise(const Block& block, std::size_t c, const BlockSamples& truth) {
         if (block.mode == mode_intra)
             predict_intra(picture_[c], x_, y_, block.intra_predictor, channel_.prediction);
@@ -175,7 +175,7 @@ class Analysis {
     BlockSearch search_;
     // The current block:
     std::size_t x_ = 0, y_ = 0;
-    CodedChannel channel_, other_;  // the first channel of the block, and an alternative
+    CodedChannel channel_, alternative_;  // the first channel of the block, and an alternative
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace hogel::codec::encode {
 
-// Decides on all blocks of a hogel and reconstructs its picture, in memory that the caller provides, exactly as a
+// Decides on all blocks of a hogel and reconstructs its picture, in memory of the caller, exactly as a
 // decoder will. The result includes the predictor candidates.
 format::CodedHogel analyse(const format::TileSetup& setup, std::size_t hogel, const format::Picture& source,
                            const KnownDisparities& known, std::vector<format::Picture>& pictures);

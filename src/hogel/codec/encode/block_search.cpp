@@ -16,9 +16,9 @@ namespace {
 // Estimated bits (docs/decisions/0030-codec-prediction.md).
 constexpr float first_candidate = 0.3f, other_candidate = 2, each_candidate = 0.7f, new_disparity = 14;
 constexpr float best_of_all_sides = 0.3f, one_side = 7;
-// Thresholds from the same page, in squared steps per block, for most layers and for the last one, from which no other
-// hogel is predicted. A prediction that costs less than the first ends the search; one that costs more than the second
-// justifies a wider search.
+// Thresholds from the same page, in squared steps per block, for most layers and for the last layer, from which no
+// other hogel is predicted. A prediction that costs less than the first ends the search; one that costs more than the
+// second justifies a wider search.
 constexpr float good_enough = 1.5f, good_enough_last = 2;
 constexpr float costly = 12, costly_last = 16;
 // A lower bound on the error that a prediction is likely to have.
@@ -39,10 +39,10 @@ BlockSearch::BlockSearch(const TileSetup& setup, const HogelOrder::Hogel& hogel,
       known_(known),
       unit_(disparity_unit(hogel)) {
     const float step = setup.step[static_cast<std::size_t>(hogel.layer)];
-    const bool last = hogel.layer + 1 == setup.order.layers();
+    const bool is_last_layer = hogel.layer + 1 == setup.order.layers();
     rate_weight_ = lambda * step * step;
-    good_enough_ = (last ? good_enough_last : good_enough) * step * step;
-    wide_search_cost_ = (last ? costly_last : costly) * step * step;
+    good_enough_ = (is_last_layer ? good_enough_last : good_enough) * step * step;
+    wide_search_cost_ = (is_last_layer ? costly_last : costly) * step * step;
     min_error_ = min_error * step * step;
 }
 
@@ -85,18 +85,19 @@ void BlockSearch::try_single_sides(int disparity, float bits) {
 }
 
 int BlockSearch::codable(float disparity) const {
-    const float away = disparity - static_cast<float>(first_candidate_);
-    const float units = std::clamp<float>(std::abs(away) / static_cast<float>(unit_) + 0.5f, 0, 2 * max_disparity);
-    return first_candidate_ + static_cast<int>(units) * (away < 0 ? -unit_ : unit_);
+    const float difference = disparity - static_cast<float>(first_candidate_);
+    const float units =
+        std::clamp<float>(std::abs(difference) / static_cast<float>(unit_) + 0.5f, 0, 2 * max_disparity);
+    return first_candidate_ + static_cast<int>(units) * (difference < 0 ? -unit_ : unit_);
 }
 
-// With a slightly wrong disparity a reference shows the block a little shifted. Gauss–Newton steps lead from the best
-// disparity so far to the one with the least squared difference, summed over all sides.
+// With a small disparity error a reference shows the block slightly shifted. Gauss–Newton steps lead from the best
+// disparity so far to the least squared difference, summed over all sides.
 void BlockSearch::follow_slopes() {
     if (!slopes_known_) {
-        const auto reach = static_cast<std::ptrdiff_t>(slope_reach);
-        const PlaneWindow window(source_, static_cast<std::ptrdiff_t>(x_) - reach,
-                                 static_cast<std::ptrdiff_t>(y_) - reach, slope_window_side, slope_window_side);
+        const auto margin = static_cast<std::ptrdiff_t>(slope_reach);
+        const PlaneWindow window(source_, static_cast<std::ptrdiff_t>(x_) - margin,
+                                 static_cast<std::ptrdiff_t>(y_) - margin, slope_window_side, slope_window_side);
         slopes_of_block(window.rows(), window.stride(), slopes_);
         slopes_known_ = true;
     }
@@ -107,10 +108,10 @@ void BlockSearch::follow_slopes() {
         if (choice.count == 0) continue;
         const HogelOrder::Reference& reference = hogel_.references[choice.reference[0]];
         const float distance = static_cast<float>(reference.ds) + static_cast<float>(reference.dt) * setup_.aspect;
-        const AlongSlope one = along_slope(warped_.get(from, choice.reference[0], choice.shift[0]), *target_,
-                                           reference.ds != 0 ? slopes_.u : slopes_.v);
-        sum.difference += distance * one.difference;
-        sum.square += distance * distance * one.square;
+        const AlongSlope along = along_slope(warped_.get(from, choice.reference[0], choice.shift[0]), *target_,
+                                             reference.ds != 0 ? slopes_.u : slopes_.v);
+        sum.difference += distance * along.difference;
+        sum.square += distance * distance * along.square;
     }
     if (!(sum.square > 0)) return;
     const int disparity = codable(static_cast<float>(from) + shift_unit * sum.difference / sum.square);
@@ -142,8 +143,8 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
         if (block.mode == mode_partitioned) try_one(block.second_disparity);
     };
     const std::size_t column = k % setup_.grid.columns, row = k / setup_.grid.columns;
-    const auto each = [&](std::span<const std::array<int, 2>> places, auto&& use) {
-        for (const auto& [right, down] : places) {
+    const auto for_each_near = [&](std::span<const std::array<int, 2>> offsets, auto&& use) {
+        for (const auto& [right, down] : offsets) {
             if (enough()) return;
             const std::size_t c = column + static_cast<std::size_t>(right), r = row + static_cast<std::size_t>(down);
             if (c < setup_.grid.columns && r < setup_.grid.rows) use(r * setup_.grid.columns + c);
@@ -151,21 +152,21 @@ void BlockSearch::try_nearby(std::size_t k, const Candidates& candidates) {
     };
     constexpr std::array<std::array<int, 2>, 5> straight{{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     constexpr std::array<std::array<int, 2>, 4> diagonal{{{1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
-    each(straight, try_warped);
-    each(straight, try_context);
-    each(diagonal, try_warped);
-    each(diagonal, try_context);
+    for_each_near(straight, try_warped);
+    for_each_near(straight, try_context);
+    for_each_near(diagonal, try_warped);
+    for_each_near(diagonal, try_context);
 }
 
 bool BlockSearch::look_around() {
-    const float before = best_.cost;
+    const float previous = best_.cost;
     for (int part = max_look_distance * unit_; part >= unit_ && !good(); part /= 2)
         for (const int middle = (best_.disparity - first_candidate_) / unit_ * unit_; const int sign : {-1, 1}) {
             const int disparity = first_candidate_ + middle + sign * part;
             if (!good()) try_any_side(disparity, new_disparity);
             try_single_sides(disparity, new_disparity);
         }
-    return best_.cost < before;
+    return best_.cost < previous;
 }
 
 const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& target, const Candidates& candidates) {
@@ -185,9 +186,9 @@ const BlockSearch::Found& BlockSearch::run(std::size_t k, const BlockSamples& ta
         try_any_side(codable(static_cast<float>(known_.estimated[k])), new_disparity);
     for (std::size_t n = 0; n < candidates.count && !good(); ++n) try_single_sides(candidates.disparity[n], bits_of(n));
     for (int n = 0; n < max_slope_steps && !good() && may_win(new_disparity + best_of_all_sides); ++n) {
-        const int before = best_.disparity;
+        const int previous = best_.disparity;
         follow_slopes();
-        if (best_.disparity == before) break;
+        if (best_.disparity == previous) break;
         try_single_sides(best_.disparity, new_disparity);
     }
     try_nearby(k, candidates);

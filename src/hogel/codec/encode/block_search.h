@@ -15,8 +15,9 @@ struct KnownDisparities {
     const std::vector<format::Block>* context_blocks = nullptr;  // blocks of the first context reference; may be null
 };
 
-// Searches the disparity and side that best predict a block of the first channel. Choices of few bits are tried first.
-// The search stops at a prediction that is good enough, and skips choices whose bits alone cost more than the best one.
+// Searches the disparity and side that best predict a block of the first channel. Choices with few bits are tried
+// first. The search stops at a good enough prediction, and skips choices with bits that alone cost more than the best
+// one.
 class BlockSearch {
   public:
     // @param warped   cache of warped blocks for the current block
@@ -32,15 +33,15 @@ class BlockSearch {
         std::int16_t disparity = 0;
         const format::BlockSamples* prediction = nullptr;
     };
-    // Searches for block k, whose samples are `target`. Valid until the next call.
+    // Searches for block k with the samples `target`. Valid until the next call.
     const Found& run(std::size_t k, const format::BlockSamples& target, const format::Candidates& candidates);
     const Found& found() const { return best_; }
-    // Tries disparities around the best one, distant ones first. Returns whether one of them is better; it then is the
-    // result.
+    // Tries disparities around the best one, distant ones first. Returns whether a better one was found, which is then
+    // the result.
     bool look_around();
-    // Whether the best prediction is good enough to stop.
+    // Returns whether the best prediction is good enough to stop.
     bool good() const { return best_.cost < good_enough_; }
-    // The cost above which a block is searched by look_around().
+    // Returns the minimum cost of blocks for which look_around() is worthwhile.
     float wide_search_cost() const { return wide_search_cost_; }
 
   private:
@@ -50,7 +51,8 @@ class BlockSearch {
     void try_single_sides(int disparity, float bits);
     void follow_slopes();
     void try_nearby(std::size_t k, const format::Candidates& candidates);
-    // The nearest disparity that can be coded: one that differs from the first candidate by a whole number of units.
+    // Returns the nearest disparity that can be coded: one that differs from the first candidate by a whole number of
+    // units.
     int codable(float disparity) const;
 
     const format::TileSetup& setup_;

@@ -29,8 +29,9 @@ using namespace codec::format;
 
 namespace {
 
-// The fraction of the requested bytes that may be missing when a step is searched, with some of the tiles first and
-// then with all (docs/decisions/0037-codec-rate-control.md). Filler takes their place.
+// Fractions of the requested bytes that may be missing after the search of a step: in the first search, with some
+// tiles, and in the last, with all tiles (docs/decisions/0037-codec-rate-control.md). Filler replaces the missing
+// bytes.
 constexpr double first_tolerance = 0.02, last_tolerance = 0.004;
 constexpr std::size_t sampled = 8;  // number of tiles that are coded to estimate the step
 
@@ -40,14 +41,14 @@ std::vector<std::size_t> all_tiles(std::size_t count) {
     return tiles;
 }
 
-// The indices of some tiles, spread over the light field.
+// Returns the indices of some tiles, spread over the light field.
 std::vector<std::size_t> some_tiles(std::size_t count) {
     std::vector<std::size_t> tiles;
     for (std::size_t i = 0; i < sampled; ++i) tiles.push_back((2 * i + 1) * count / (2 * sampled));
     return tiles;
 }
 
-// The step of a prediction that makes tiles smallest, found by halving and doubling a likely step.
+// Returns the step of the prediction that minimises tile sizes, found by halving and doubling a likely step.
 double step_of_min_bytes(const TileCompression& compression, const CompressionTarget& target) {
     constexpr int max_power = 8;
     const bool lossless = std::holds_alternative<Lossless>(target);
@@ -58,9 +59,9 @@ double step_of_min_bytes(const TileCompression& compression, const CompressionTa
     double min_bytes = bytes(0);
     for (const int direction : {1, -1}) {
         for (int power = direction; std::abs(power) < max_power; power += direction) {
-            const double here = bytes(power);
-            if (here >= min_bytes) break;
-            min_bytes = here;
+            const double tile_bytes = bytes(power);
+            if (tile_bytes >= min_bytes) break;
+            min_bytes = tile_bytes;
             best = power;
         }
         if (best != 0) break;
@@ -68,8 +69,8 @@ double step_of_min_bytes(const TileCompression& compression, const CompressionTa
     return std::ldexp(start, best);
 }
 
-// Returns the coding method with the name that a stream stores. Throws Error(usage) for a method that does not exist or
-// does not suit the target.
+// Returns the coding method with its name in a stream. Throws Error(usage) for an unknown method, or one that cannot
+// meet the target.
 CodingMethod method_for(const CompressionOptions& options) {
     CodingMethod method = options.method;
     if (is_exact(options.target)) {
@@ -130,7 +131,7 @@ Companding companding_for(const LightField& light_field, const CompressionOption
     return companding;
 }
 
-// The result of a search for a coding of all tiles that meets a target.
+// Result of a search for a coding of all tiles that meets a target.
 struct Found {
     CodingOutcome outcome;
     double step = 0;
@@ -138,32 +139,31 @@ struct Found {
     std::uint64_t filler = 0;
 };
 
-// Cuts embedded codes or adds filler, after all tiles have been written, so that the file has the requested number of
-// bytes.
+// Cuts embedded codes or adds filler after all tiles were written, so that the file has the requested number of bytes.
 // @param budget   maximum number of bytes without filler
-void meet_rate(const PixelsPerBit& target, double bytes, double budget, StepFound where, TileCompression& compression,
-               const StreamWriter& writer, Found& found) {
+void meet_rate(const PixelsPerBit& target, double bytes, double budget, StepFound step_found,
+               TileCompression& compression, const StreamWriter& writer, Found& found) {
     if (compression.embedded() && static_cast<double>(writer.size()) > bytes) {
-        const std::vector<std::size_t> all = all_tiles(compression.tiles());
-        found.outcome = compression.code(all, found.step, true, compression.cut(bytes));
+        const std::vector<std::size_t> tiles = all_tiles(compression.tiles());
+        found.outcome = compression.code(tiles, found.step, true, compression.cut(bytes));
         ++found.passes;
     }
-    if (where == StepFound::only_below || static_cast<double>(writer.size()) > budget)
+    if (step_found == StepFound::only_below || static_cast<double>(writer.size()) > budget)
         refuse_rate(target, bytes, writer.size());
     found.filler = std::min(static_cast<std::uint64_t>(bytes) - writer.size(), std::uint64_t{max_filler});
 }
 
-// Searches the step for a target that is an SQNR or a rate.
+// Searches the step for an SQNR or a rate.
 Found search_step(const CompressionTarget& target, double rays, const std::string& coder, TileCompression& compression,
                   const StreamWriter& writer) {
-    const std::vector<std::size_t> all = all_tiles(compression.tiles());
-    const std::vector<std::size_t> some = all.size() >= 3 * sampled ? some_tiles(all.size()) : all;
+    const std::vector<std::size_t> tiles = all_tiles(compression.tiles());
+    const std::vector<std::size_t> sample_tiles = tiles.size() >= 3 * sampled ? some_tiles(tiles.size()) : tiles;
     const auto* const rate = std::get_if<PixelsPerBit>(&target);
-    const CodingOutcome seen = compression.look(some);
-    const double likely = likely_step(target, std::sqrt(seen.signal / seen.samples));
+    const CodingOutcome sums = compression.look(sample_tiles);
+    const double likely = likely_step(target, std::sqrt(sums.signal / sums.samples));
     StepSearch search(likely > 0 ? std::log2(likely) : 0, [&](const CodingOutcome& o) {
         if (!rate) return o.sqnr();
-        const double overhead = static_cast<double>(writer.overhead(all.size()));
+        const double overhead = static_cast<double>(writer.overhead(tiles.size()));
         return std::log2(o.bytes * (compression.samples() / o.samples) + overhead);
     });
     const double bytes = rate ? bytes_of_rate(*rate, rays, compression.samples()) : 0;
@@ -172,28 +172,29 @@ Found search_step(const CompressionTarget& target, double rays, const std::strin
     const auto band = [&](double tolerance) {
         return rate ? band_of_bytes(budget, tolerance, embedded) : band_of_sqnr(std::get<Sqnr>(target).decibels);
     };
-    if (some.size() < all.size())
-        search.run(band(first_tolerance), [&](double step) { return compression.code(some, step, false); });
+    if (sample_tiles.size() < tiles.size())
+        search.run(band(first_tolerance), [&](double step) { return compression.code(sample_tiles, step, false); });
     const double tolerance =
         embedded ? first_tolerance : std::min(last_tolerance, static_cast<double>(max_filler) / bytes);
-    const StepFound where = search.run(band(tolerance), [&](double step) { return compression.code(all, step, true); });
+    const StepFound step_found =
+        search.run(band(tolerance), [&](double step) { return compression.code(tiles, step, true); });
     Found found{search.outcome(), search.step(), search.passes()};
     if (!embedded || !rate) check_quality(target, found.outcome, found.step, coder);
-    if (rate) meet_rate(*rate, bytes, budget, where, compression, writer, found);
+    if (rate) meet_rate(*rate, bytes, budget, step_found, compression, writer, found);
     return found;
 }
 
-// Codes once with the step that a rule gives for a rate.
+// Codes once with the step that a rule yields for a rate.
 Found code_by_rule(const PixelsPerBit& target, double rays, const CodingMethod& method, TileCompression& compression,
                    const StreamWriter& writer) {
-    const std::vector<std::size_t> all = all_tiles(compression.tiles());
+    const std::vector<std::size_t> tiles = all_tiles(compression.tiles());
     const double bytes = bytes_of_rate(target, rays, compression.samples());
     const coding::MagnitudeHistogram magnitudes = compression.magnitudes();
-    const double bits = 8 * (bytes - static_cast<double>(writer.overhead(all.size())));
-    if (bits <= 0) refuse_rate(target, bytes, writer.overhead(all.size()));
+    const double bits = 8 * (bytes - static_cast<double>(writer.overhead(tiles.size())));
+    if (bits <= 0) refuse_rate(target, bytes, writer.overhead(tiles.size()));
     Found found;
     found.step = step_by_rule(target, method.symbols, magnitudes, bits);
-    found.outcome = compression.code(all, found.step, true);
+    found.outcome = compression.code(tiles, found.step, true);
     check_quality(target, found.outcome, found.step, method.coder);
     return found;
 }
@@ -215,7 +216,7 @@ Found code_to_target(const CompressionTarget& target, double rays, const CodingM
 CompressionResult compress_into(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
                                 const CompressionOptions& options, const Progress& progress);
 
-// Codes the depth into a file without a name, which exists in the first process of a team.
+// Codes the depth into an unnamed file, which exists only in the root rank.
 StreamInfo::Depth code_depth(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
                              const CompressionOptions& options) {
     return compress_depth(light_field, options, [&](const LightField& depth, const CompressionOptions& exact) {
@@ -235,7 +236,7 @@ HogelRange tile_for(const CompressionOptions& options, const TileCoder& coder, c
 double max_file_bytes(const LightField& light_field, const CompressionTarget& target) {
     const double samples = light_field.samples();
     if (const auto* rate = std::get_if<PixelsPerBit>(&target)) {
-        // Rules meet the rate approximately; that of whole bit planes misses it by up to a factor of two.
+        // Rules meet the rate approximately; the rule of whole bit planes misses it by up to a factor of two.
         const double may_exceed = rate->rule == RateRule::search ? 1 : 2;
         return may_exceed * samples / static_cast<double>(light_field.grid().channels) / 8 / rate->rate;
     }
@@ -243,7 +244,7 @@ double max_file_bytes(const LightField& light_field, const CompressionTarget& ta
     return samples * sizeof(float);
 }
 
-// Writes the stream to `into`, or if that is null to the file of the name.
+// Writes the stream to `into`, or to `path` if `into` is null.
 CompressionResult compress_into(core::RawFile* into, const LightField& light_field, const std::filesystem::path& path,
                                 const CompressionOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
@@ -306,7 +307,7 @@ Plan plan_compression(const LightField& light_field, const CompressionOptions& o
     const HogelRange tile = tile_for(options, *coder, grid, grid);
     const double tiles = std::ceil(static_cast<double>(grid.hogels()) / static_cast<double>(tile.hogels()));
     const double at_once = std::min(tiles, static_cast<double>(std::min(coder->max_at_once(), thread_count())));
-    // A tile, its prediction, its residual and its coefficients, for each of the tiles in progress.
+    // Arrays of each tile in progress: the tile, its prediction, its residual and its coefficients.
     constexpr double arrays = 4;
     const double tile_samples = static_cast<double>(tile.hogels() * grid.directions() * grid.channels);
     Plan plan;

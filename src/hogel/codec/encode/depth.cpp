@@ -19,7 +19,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-// The range of finite depths; nearest > farthest if there are none.
+// Range of finite depths; nearest > farthest if there are none.
 struct Range {
     float nearest = infinity, farthest = -infinity;
 
@@ -54,9 +54,9 @@ class DepthAsRadiance final : public LightFieldSource {
     const LightFieldGrid& grid() const override { return grid_; }
     HogelRange preferred_tile() const override { return source_->preferred_tile(); }
     void read(LightFieldTile& tile) const override {
-        LightFieldTile seen(source_->grid(), tile.range, true);
-        source_->read(seen);
-        std::ranges::transform(seen.depth.elements(), tile.radiance.elements().begin(),
+        LightFieldTile tile_with_depth(source_->grid(), tile.range, true);
+        source_->read(tile_with_depth);
+        std::ranges::transform(tile_with_depth.depth.elements(), tile.radiance.elements().begin(),
                                [&](float depth) { return depth == infinity ? nothing_ : depth; });
     }
 
@@ -70,7 +70,7 @@ class DepthAsRadiance final : public LightFieldSource {
 
 namespace {
 
-// The range of depths, or for a single one its size.
+// Returns the range of depths, or for a single depth its magnitude.
 double range_of(double nearest, double farthest) {
     return farthest > nearest ? farthest - nearest : std::max(std::abs(farthest), 1e-6);
 }
@@ -78,25 +78,25 @@ double range_of(double nearest, double farthest) {
 }  // namespace
 
 DepthCoding::DepthCoding(double nearest, double farthest, double bound) : error(bound) {
-    // Far enough for any rounding, but not farther, because edges between finite and infinite depths cost more if the
+    // Far enough for any rounding, but no farther: edges between finite and infinite depths cost more if the
     // jump is larger.
     beyond = farthest + 4 * error + 1e-2 * range_of(nearest, farthest);
     nothing = beyond + (beyond - farthest);
 }
 
 DepthCoding depth_coding(const LightField& light_field, std::optional<double> bound) {
-    Range all;
+    Range range;
     for (const LightField::Source& face : light_field.faces()) {
         const Tiling tiling(face->grid(), face->preferred_tile());
         work::ordered_reduce<Range>(
             tiling.count(), work::default_in_flight(), {}, [&](std::size_t i) { return depths_of(*face, tiling[i]); },
-            [&](std::size_t, Range& depths) { all.include(depths); });
+            [&](std::size_t, Range& depths) { range.include(depths); });
     }
-    work::share_result(all, {});
-    if (all.nearest > all.farthest) all = {0, 0};
+    work::share_result(range, {});
+    if (range.nearest > range.farthest) range = {0, 0};
     return DepthCoding(
-        all.nearest, all.farthest,
-        bound ? *bound : default_depth_error(light_field.front().grid(), range_of(all.nearest, all.farthest)));
+        range.nearest, range.farthest,
+        bound ? *bound : default_depth_error(light_field.front().grid(), range_of(range.nearest, range.farthest)));
 }
 
 LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding) {
@@ -127,7 +127,7 @@ namespace hogel {
 
 namespace {
 
-// The largest |U| and |V| of a hogel's rays.
+// Returns the largest |U| and |V| of a hogel's rays.
 double steepest_slope(const LightFieldGrid& hogel) {
     if (!hogel.has_frequencies())
         return std::max(std::abs(hogel.center_u()) + hogel.half_u(), std::abs(hogel.center_v()) + hogel.half_v());
@@ -143,7 +143,7 @@ double steepest_slope(const LightFieldGrid& hogel) {
 }  // namespace
 
 double default_depth_error(const LightFieldGrid& grid, double range) {
-    // The hogel in the first corner and the one in the last are those with the steepest directions.
+    // The hogels in the first and the last corner have the steepest directions.
     double steepest = 0;
     for (const LightFieldGrid& hogel : {grid.of_hogel(0, 0), grid.of_hogel(static_cast<double>(grid.hogels_s) - 1,
                                                                            static_cast<double>(grid.hogels_t) - 1)})

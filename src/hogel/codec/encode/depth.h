@@ -11,24 +11,24 @@
 
 namespace hogel::codec::encode {
 
-// How depths are coded in the depth stream: as a light field of one channel with a bounded error. All values in metres.
+// Coding of depths in the depth stream: as a light field of one channel with a bounded error. All values in metres.
 struct DepthCoding {
     double error = 0;    // 0: exact
-    double nothing = 0;  // the depth behind all others that represents infinity
-    double beyond = 0;   // decoded depths of this value or more mean infinity
+    double nothing = 0;  // depth that represents infinity, behind all others
+    double beyond = 0;   // decoded depths of at least this value mean infinity
 
-    // For depths from `nearest` to `farthest` with this bound, 0: exact.
+    // Coding of depths from `nearest` to `farthest` with this error bound; 0: exact.
     DepthCoding(double nearest, double farthest, double bound);
 };
 
-// Reads all depths. Throws Error(bad_input) for one that is not a number, or −∞. Without a bound it is
-// default_depth_error().
+// Reads all depths and returns their coding. The default bound is default_depth_error(). Throws Error(bad_input) for a
+// depth that is NaN or −∞.
 DepthCoding depth_coding(const LightField& light_field, std::optional<double> bound);
 
-// The depths of a light field as radiance of one channel.
+// Returns the depths of a light field as radiance of one channel.
 LightField depth_as_radiance(const LightField& light_field, const DepthCoding& coding);
 
-// Codes the depth as a stream of its own. Throws Error(usage) for a light field without depth and for an impossible
+// Codes the depth as a separate stream. Throws Error(usage) for a light field without depth and for an impossible
 // error.
 // @param code   writes the stream of a light field and returns its bytes
 StreamInfo::Depth compress_depth(

@@ -15,10 +15,10 @@ using namespace format;
 
 namespace {
 
-// Below this error, in squared steps of the first layer per neighbour that counts, the disparity of a neighbouring
-// block is taken unchanged.
+// Below this error, in squared steps of the first layer per counted neighbour, the disparity of a neighbouring block is
+// used unchanged.
 constexpr float well_estimated = 1;
-// From this error on, in squared finest steps per neighbour that counts, neighbours do not show the same surface.
+// Above this error, in squared finest steps per counted neighbour, neighbours do not show the same surface.
 constexpr float max_shared_error = 6.4f;
 constexpr float unknown = std::numeric_limits<float>::infinity();
 
@@ -27,11 +27,11 @@ class Estimation {
   public:
     Estimation(const TileSetup& setup, LightFieldTile& tile, const HogelOrder::Hogel& hogel)
         : setup_(setup), picture_(picture_at(tile, hogel.s, hogel.t)) {
-        for (const int apart : {-4, 4, -2, 2, -1, 1}) {  // the most discriminating first
-            const std::size_t s = hogel.s + static_cast<std::size_t>(apart);
-            const std::size_t t = hogel.t + static_cast<std::size_t>(apart);
-            if (s < tile.range.ns) neighbours_[0].push_back({{0, apart, 0}, picture_at(tile, s, hogel.t)});
-            if (t < tile.range.nt) neighbours_[1].push_back({{0, 0, apart}, picture_at(tile, hogel.s, t)});
+        for (const int distance : {-4, 4, -2, 2, -1, 1}) {  // the most discriminating first
+            const std::size_t s = hogel.s + static_cast<std::size_t>(distance);
+            const std::size_t t = hogel.t + static_cast<std::size_t>(distance);
+            if (s < tile.range.ns) neighbours_[0].push_back({{0, distance, 0}, picture_at(tile, s, hogel.t)});
+            if (t < tile.range.nt) neighbours_[1].push_back({{0, 0, distance}, picture_at(tile, hogel.s, t)});
         }
     }
 
@@ -54,7 +54,7 @@ class Estimation {
 
   private:
     struct Neighbour {
-        HogelOrder::Reference place;
+        HogelOrder::Reference offset;
         Picture picture;
     };
 
@@ -63,32 +63,33 @@ class Estimation {
         return in_tile ? as_in_tile(tile, setup_, s, t) : picture_of(tile, setup_, s, t);
     }
 
-    // The error of a neighbour's block, with the shift exact or rounded to whole directions.
+    // Returns the error of a neighbour's block, with the shift exact or rounded to whole directions.
     float error(const Neighbour& neighbour, int disparity, bool whole_directions) const {
         const Plane& plane = neighbour.picture[0];
-        const Shift shift = shift_of(disparity, neighbour.place, setup_.aspect);
+        const Shift shift = shift_of(disparity, neighbour.offset, setup_.aspect);
         if (whole_directions) {
             const PlaneWindow window(plane, x_ + ((shift.u + 32) >> 6), y_ + ((shift.v + 32) >> 6), block_side,
                                      block_side);
             return squared_difference(window.rows(), window.stride(), block_);
         }
-        BlockSamples other;
-        fetch_warped(plane, x_, y_, shift, other);
-        return squared_difference(other, block_);
+        BlockSamples warped;
+        fetch_warped(plane, x_, y_, shift, warped);
+        return squared_difference(warped, block_);
     }
 
-    // The sum of the errors of the better half of the neighbours along each axis, because a surface that is hidden on
-    // one side may be visible on the other. A sum of `max_cost` or more need not be exact.
+    // Returns the sum of the errors of the better half of the neighbours along each axis, because a surface that is
+    // hidden on one side may be visible on the other. A sum of `max_cost` or more need not be exact.
     float cost(int disparity, bool whole_directions, float max_cost) const {
         float sum = 0;
         for (const auto& axis : neighbours_) {
             std::array<float, 6> smallest;  // errors in rising order
             const std::size_t better = (axis.size() + 1) / 2;
             for (std::size_t n = 0; n < axis.size(); ++n) {
-                const float here = error(axis[n], disparity, whole_directions);
-                std::size_t at = n;
-                for (; at > 0 && here < smallest[at - 1]; --at) smallest[at] = smallest[at - 1];
-                smallest[at] = here;
+                const float candidate_cost = error(axis[n], disparity, whole_directions);
+                std::size_t position = n;
+                for (; position > 0 && candidate_cost < smallest[position - 1]; --position)
+                    smallest[position] = smallest[position - 1];
+                smallest[position] = candidate_cost;
                 // Each of the remaining neighbours may replace one of the smallest errors.
                 const std::size_t left = axis.size() - 1 - n;
                 float lower_bound = sum;
@@ -101,9 +102,9 @@ class Estimation {
     }
 
     void try_one(int disparity, bool whole_directions) {
-        const float here = cost(disparity, whole_directions, std::min(min_cost_, bound_));
-        if (here < min_cost_) {
-            min_cost_ = here;
+        const float candidate_cost = cost(disparity, whole_directions, std::min(min_cost_, bound_));
+        if (candidate_cost < min_cost_) {
+            min_cost_ = candidate_cost;
             best_ = disparity;
         }
     }

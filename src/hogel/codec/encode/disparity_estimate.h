@@ -6,12 +6,12 @@
 
 namespace hogel::codec::encode {
 
-// The disparity of each block of a hogel, estimated from its neighbours in the tile.
+// Disparities of the blocks of a hogel, estimated from its neighbours in the tile.
 struct Estimate {
     std::vector<std::int16_t> disparities;
-    float shared = 0;  // fraction of the hogel that its neighbours show too, to within the finest step
+    float shared = 0;  // fraction of the hogel that its neighbours also show, to within the finest step
 };
-// @param tile   is not changed
+// @param tile   not modified
 Estimate estimate_disparities(const format::TileSetup& setup, LightFieldTile& tile,
                               const format::HogelOrder::Hogel& hogel);
 

@@ -14,8 +14,9 @@ constexpr std::size_t per_octave = std::size_t{1} << (23 - ToneCurve::low_bits);
 constexpr std::size_t max_octaves = 20;
 constexpr double evenly = 0.1;  // fraction of all samples that is treated as evenly distributed
 
-// Slopes of the curve over the logarithm: proportional to the densities, at most 1, with a total rise of `height`,
-// which is less than the sum of the widths. The paper iterates until few samples are above the ceiling; here none is.
+// Returns the slopes of the curve over the logarithm: proportional to the densities, at most 1, with a total rise of
+// `height`. `height` must be less than the sum of the widths. The paper iterates until few samples are above the
+// ceiling; here none is.
 std::vector<double> limited_slopes(const std::vector<double>& densities, const std::vector<double>& widths,
                                    double height) {
     std::vector<double> slopes(densities.size(), 0);
@@ -38,17 +39,17 @@ std::vector<double> limited_slopes(const std::vector<double>& densities, const s
 std::optional<ToneCurve> tone_curve_of(const LuminanceHistogram& histogram, double decades) {
     // Only the bins of normal (not subnormal) numbers.
     const std::span<const std::uint64_t> counts = std::span(histogram.counts()).subspan(per_octave, 254 * per_octave);
-    const auto some = [](std::uint64_t count) { return count > 0; };
-    const auto highest = std::find_if(counts.rbegin(), counts.rend(), some);
+    const auto is_positive = [](std::uint64_t count) { return count > 0; };
+    const auto highest = std::find_if(counts.rbegin(), counts.rend(), is_positive);
     if (highest == counts.rend()) return std::nullopt;
     const auto end = static_cast<std::size_t>(counts.rend() - highest);
-    const auto lowest = static_cast<std::size_t>(std::ranges::find_if(counts, some) - counts.begin());
+    const auto lowest = static_cast<std::size_t>(std::ranges::find_if(counts, is_positive) - counts.begin());
     const std::size_t begin = std::max(lowest, end - std::min(end, max_octaves * per_octave));
     std::vector<double> widths, densities;
     double width = 0, total = 0;
     for (std::size_t bin = begin; bin < end; ++bin) {
-        const double place = static_cast<double>(per_octave + bin % per_octave);
-        widths.push_back(std::log2((place + 1) / place));
+        const double mantissa = static_cast<double>(per_octave + bin % per_octave);
+        widths.push_back(std::log2((mantissa + 1) / mantissa));
         width += widths.back();
         total += static_cast<double>(counts[bin]);
     }

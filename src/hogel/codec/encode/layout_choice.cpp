@@ -17,7 +17,7 @@ using namespace format;
 
 namespace {
 
-constexpr std::size_t tried = 2;         // tiles of each face, of the size for the layout stacked
+constexpr std::size_t tried = 2;         // number of tiles of each face, of the size for the layout stacked
 constexpr double separate_step = 2;      // estimate: the step of `faces` with the quality of a step of `stacked`
 constexpr double probe_tolerance = 1.5;  // decibels
 constexpr double bytes_tolerance = 0.2;
@@ -36,13 +36,13 @@ class Trial {
             for (std::size_t i = 0; i < count; ++i) {
                 const HogelRange range = tiling[(2 * i + 1) * tiling.count() / (2 * count)];
                 samples_.push_back({face.get(), range});
-                LightFieldTile seen(grid, range, false);
-                face->read(seen);
-                for (const float value : seen.radiance.elements()) {
+                LightFieldTile sample(grid, range, false);
+                face->read(sample);
+                for (const float value : sample.radiance.elements()) {
                     finite_ = finite_ && std::isfinite(value);
                     if (std::isfinite(value)) sum_.signal += static_cast<double>(value) * value;
                 }
-                sum_.samples += static_cast<double>(seen.radiance.size());
+                sum_.samples += static_cast<double>(sample.radiance.size());
                 rays_ += static_cast<double>(grid.directions() * range.hogels());
             }
         }
@@ -99,7 +99,7 @@ class Trial {
     bool finite_ = true;
 };
 
-// A figure by which codings of different quality are compared; lower is better.
+// Returns a figure for comparing codings of different quality; lower is better.
 double cost(const CodingOutcome& outcome) { return std::log2(outcome.bytes) - outcome.sqnr() / db_per_doubling; }
 
 StepBand near(double sqnr) {

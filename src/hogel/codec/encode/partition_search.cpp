@@ -14,7 +14,7 @@ namespace {
 constexpr float first_candidate_bits = 0.3f, each_candidate_bits = 1.5f, new_disparity_bits = 14;
 constexpr float best_of_all_sides_bits = 1, one_side_bits = 2.5f;
 
-// The edge with the smallest sum of both partitions' costs. Compares eight edges at once.
+// Returns the edge with the smallest sum of both partitions' costs. Compares eight edges at once.
 std::size_t cheapest_edge(const BestPerEdge& main, const BestPerEdge& second) {
     PerEdge cost;
     for (std::size_t edge = 0; edge < block_edges; ++edge) cost[edge] = main.cost[edge] + second.cost[edge];

@@ -7,18 +7,18 @@
 
 namespace hogel::codec::encode {
 
-// Searches the best two partitions of a block: the prediction of each, and the edge between them.
+// Searches the best two partitions of a block: their predictions, and the edge between them.
 class PartitionSearch {
   public:
     // @param warped   cache of warped blocks for the current block
     PartitionSearch(WarpedBlocks& warped, format::ReferenceWeights& weights) : warped_(warped), weights_(weights) {}
 
-    // Starts with a block whose samples are `target`, and tries its candidates as disparities of partitions.
-    // @param rate_weight   λ, the squared error that one bit is worth
+    // Starts with a block with the samples `target`, and tries its candidates as disparities of partitions.
+    // @param rate_weight   λ, the squared error equivalent to one bit
     void begin(const format::BlockSamples& target, const format::Candidates& candidates, float rate_weight);
     // Tries one more disparity.
     void add(int disparity);
-    // The best partitions so far, if there are any, and their prediction.
+    // Returns the best partitions so far, or nullopt, and stores their prediction.
     std::optional<format::Block> best(format::BlockSamples& prediction);
 
   private:

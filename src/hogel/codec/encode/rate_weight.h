@@ -3,7 +3,7 @@
 
 namespace hogel::codec::encode {
 
-// The rate weight λ: the squared error that a bit is worth, in squared steps.
+// Rate weight λ: the squared error equivalent to one bit, in squared steps.
 constexpr float lambda = 0.18f;
 
 }  // namespace hogel::codec::encode

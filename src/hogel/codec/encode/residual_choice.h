@@ -14,7 +14,7 @@ struct CodedChannel {
     float cost = 0;  // squared error plus λ times the bits of the levels
 };
 
-// Chooses the basis and the levels of a channel's residual, or no levels if they cost more than they gain.
+// Chooses the basis and the levels of a channel's residual, or no levels if they cost more than they save.
 // @param error   Σ (truth − prediction)²
 void quantise(const format::BlockSamples& truth, float error, float step, bool intra, float reconstruction_offset,
               CodedChannel& channel);

@@ -20,11 +20,11 @@ bool Search::add(double value) {
     const double aim = (low_ + high_) / 2;
     double step = std::isfinite(value) ? (aim - value) / slope_ : value > 0 ? 4.0 : -4.0;
     step = std::clamp(step, -8.0, 8.0);
-    double there = next_ + step;
+    double next_argument = next_ + step;
     // Every fourth step is a bisection, in case the secant approaches from one side only.
-    if (above_ && below_ && (++bracketed_ % 4 == 0 || there <= *above_ || there >= *below_))
-        there = (*above_ + *below_) / 2;
-    next_ = there;
+    if (above_ && below_ && (++bracketed_ % 4 == 0 || next_argument <= *above_ || next_argument >= *below_))
+        next_argument = (*above_ + *below_) / 2;
+    next_ = next_argument;
     return false;
 }
 

@@ -35,29 +35,29 @@ StepBand band_of_bytes(double bytes, double tolerance, bool embedded) {
     return {max_size + std::log2(1 - tolerance), max_size, false, -0.9};
 }
 
-double StepSearch::step() const { return std::exp2(place_); }
+double StepSearch::step() const { return std::exp2(log_step_); }
 
-double StepSearch::code_at(double place, const Code& code) {
-    place_ = place;
+double StepSearch::code_at(double log_step, const Code& code) {
+    log_step_ = log_step;
     outcome_ = code(step());
     ++passes_;
     return figure_(outcome_);
 }
 
 StepFound StepSearch::run(const StepBand& band, const Code& code) {
-    Search search(band.low, band.high, place_, slope_.value_or(band.slope));
+    Search search(band.low, band.high, log_step_, slope_.value_or(band.slope));
     std::optional<std::pair<double, double>> best;  // logarithm of the step, and its figure
     for (int pass = 0; pass < max_passes; ++pass) {
-        const double place = search.next(), figure = code_at(place, code);
+        const double log_step = search.next(), figure = code_at(log_step, code);
         const bool found = search.add(figure);
         slope_ = search.slope();
         if (found) return StepFound::in_band;
         if (band.above_is_better ? figure > band.high && !(best && best->second < figure)
                                  : figure < band.low && !(best && best->second > figure))
-            best = {place, figure};
+            best = {log_step, figure};
         if (search.above() && search.below() && *search.below() - *search.above() < min_difference) break;
     }
-    if (best && best->first != place_) code_at(best->first, code);
+    if (best && best->first != log_step_) code_at(best->first, code);
     if (!search.below()) return StepFound::only_above;
     return search.above() ? StepFound::beside_band : StepFound::only_below;
 }

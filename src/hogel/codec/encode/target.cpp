@@ -13,7 +13,7 @@ namespace {
 constexpr double likely_bounded_step = 3;        // times the error bound
 constexpr double likely_lossless_step = 0x1p-7;  // times the root mean square
 constexpr double likely_step_of_rate = 0.1;      // times the root mean square
-// The most bits that a sample can need, because floats have 24 significant bits.
+// Maximum bits per sample, because floats have 24 significant bits.
 constexpr double max_bits_of_sample = 24;
 constexpr double max_overhead = 32;
 

@@ -15,17 +15,17 @@ namespace hogel::codec::encode {
 // Refuses numbers out of range.
 void check(const CompressionTarget& target);
 
-// Whether a target bounds the error of every sample.
+// Returns whether a target bounds the error of every sample.
 bool is_exact(const CompressionTarget& target);
 
-// An estimate of the step that meets the target, with which a search begins.
+// Returns an estimate of the step that meets the target, as the start of a search.
 // @param rms   root mean square of the signal
 double likely_step(const CompressionTarget& target, double rms);
 
-// The size in bytes of a file with a rate. Refuses a size that the samples cannot fill.
+// Returns the size in bytes of a file with a rate. Refuses a size that the samples cannot fill.
 double bytes_of_rate(const PixelsPerBit& target, double rays, double samples);
 
-// The step that the target's rule gives for `bits` bits of coefficients. The target has a rule other than search.
+// Returns the step that the target's rule yields for `bits` bits of coefficients. The rule must not be search.
 double step_by_rule(const PixelsPerBit& target, ZerotreeSymbols symbols, const coding::MagnitudeHistogram& magnitudes,
                     double bits);
 
@@ -33,7 +33,7 @@ double step_by_rule(const PixelsPerBit& target, ZerotreeSymbols symbols, const c
 // @param nearest   size of the nearest possible file
 [[noreturn]] void refuse_rate(const PixelsPerBit& target, double bytes, std::uint64_t nearest);
 
-// Refuses a quality whose step is too small for levels or floats, so that errors are many times as large as the step.
+// Refuses a quality that needs a step too small for levels or floats: errors would be many times larger than the step.
 void check_quality(const CompressionTarget& target, const CodingOutcome& outcome, double step,
                    const std::string& coder);
 

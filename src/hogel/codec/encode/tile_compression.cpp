@@ -18,17 +18,18 @@ using namespace format;
 
 namespace {
 
-// Sizes with a sum of `budget` bytes: each is `min_size` plus the same fraction of what exceeded `min_size`.
+// Returns sizes with a sum of `budget` bytes: each is `min_size` plus the same fraction of its excess over `min_size`.
 std::vector<std::size_t> cut_sizes(const std::vector<std::size_t>& sizes, std::size_t min_size, double budget) {
-    std::size_t left = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - min_size * sizes.size();
+    std::size_t total_excess = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}) - min_size * sizes.size();
     auto bytes = static_cast<std::size_t>(std::max(budget - static_cast<double>(min_size * sizes.size()), 0.0));
     std::vector<std::size_t> result;
     for (const std::size_t size : sizes) {
-        const std::size_t more = size - min_size;
-        const double kept =
-            left > 0 ? static_cast<double>(bytes) * static_cast<double>(more) / static_cast<double>(left) : 0;
-        result.push_back(min_size + static_cast<std::size_t>(kept));
-        left -= more;
+        const std::size_t excess = size - min_size;
+        const double reduced = total_excess > 0 ? static_cast<double>(bytes) * static_cast<double>(excess) /
+                                                      static_cast<double>(total_excess)
+                                                : 0;
+        result.push_back(min_size + static_cast<std::size_t>(reduced));
+        total_excess -= excess;
         bytes -= result.back() - min_size;
     }
     return result;

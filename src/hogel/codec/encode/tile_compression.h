@@ -13,7 +13,7 @@
 
 namespace hogel::codec::encode {
 
-// A pool of tiles whose memory is reused, because allocating pages of new memory takes longer than writing to them.
+// Pool of tiles for reuse, because allocating pages of new memory takes longer than writing to them.
 class SpareTiles {
   public:
     LightFieldTile take(const LightFieldGrid& grid, const HogelRange& range);
@@ -24,7 +24,7 @@ class SpareTiles {
     std::vector<LightFieldTile> tiles_;
 };
 
-// One array of directions of a stream, and the coder of its tiles.
+// An array of directions of a stream, and the coder of its tiles.
 struct CodedPart {
     LightField::Source source;
     std::unique_ptr<TileCoder> coder;
@@ -41,7 +41,7 @@ class TileCompression {
           writer_(writer),
           progress_(progress) {}
 
-    // The number of tiles of all parts. Tiles are numbered part by part.
+    // Returns the number of tiles of all parts. Tiles are numbered part by part.
     std::size_t tiles() const { return parts_.size() * tiling_.count(); }
     bool embedded() const { return parts_.front().coder->min_bytes(parts_.front().source->grid()).has_value(); }
     double samples() const;
@@ -50,13 +50,13 @@ class TileCompression {
     // @param max_bytes   limit of each tile; empty: no limit
     CodingOutcome code(std::span<const std::size_t> tiles, double step, bool write,
                        std::span<const std::size_t> max_bytes = {});
-    // Sums over the signal only.
+    // Sums only over the signal, without coding.
     CodingOutcome look(std::span<const std::size_t> tiles);
-    // The coefficients of all tiles. Throws Error(usage) for a coder that does not count them.
+    // Counts the coefficients of all tiles. Throws Error(usage) for a coder that does not count them.
     coding::MagnitudeHistogram magnitudes();
     // Codes the middle of the middle tile. Returns its bytes and the root mean square of the signal there.
     std::pair<double, double> try_middle(double step) const;
-    // The sizes to which the tiles that were written last are cut, so that the file has `file` bytes.
+    // Returns the cut sizes of the last written tiles for a file of `file` bytes.
     std::vector<std::size_t> cut(double file) const;
 
   private:

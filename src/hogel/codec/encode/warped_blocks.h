@@ -18,8 +18,8 @@ class WarpedBlocks {
         y_ = static_cast<int>(y);
         ++block_;
     }
-    // The block of a reference warped by a disparity; `shift` is the shift of that disparity and reference. Valid until
-    // another disparity is requested.
+    // Returns the block of a reference warped by a disparity; `shift` is the shift of that disparity and reference.
+    // Valid until another disparity is requested.
     const format::BlockSamples& get(int disparity, std::uint32_t reference, format::Shift shift) {
         // The references of one disparity have neighbouring entries, so that they do not evict each other.
         Cached& cached = cache_[(static_cast<std::uint32_t>(disparity) * 13 + reference) % cached_blocks];
@@ -31,7 +31,7 @@ class WarpedBlocks {
         }
         return cached.samples;
     }
-    // The prediction from a choice of references: either an entry of the cache or `scratch`.
+    // Returns the prediction from a choice of references: either an entry of the cache or `scratch`.
     const format::BlockSamples& predict(int disparity, const format::ReferenceWeights::Choice& choice,
                                         format::BlockSamples& scratch) {
         const format::BlockSamples& first = get(disparity, choice.reference[0], choice.shift[0]);

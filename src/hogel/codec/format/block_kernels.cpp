@@ -9,8 +9,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// A sum over a block in a fixed order that vectors of up to eight lanes reproduce bit for bit: even and odd rows column
-// by column, then halves.
+// Returns a sum over a block in a fixed order that vectors of up to eight lanes reproduce bit for bit: even and odd
+// rows column by column, then halves.
 template <class Term>
 float sum_in_columns(Term&& term) {
     float sum[2][block_side] = {};
@@ -100,9 +100,10 @@ std::uint64_t large_samples_plain(const BlockSamples& block, float min_magnitude
 void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes) {
     for (std::size_t r = 0; r < block_side; ++r)
         for (std::size_t c = 0; c < block_side; ++c) {
-            const float* at = rows + (r + slope_reach) * stride + c + slope_reach;
-            const auto slope = [at](std::ptrdiff_t next) {
-                return slope_of_near * (at[next] - at[-next]) - slope_of_far * (at[2 * next] - at[-2 * next]);
+            const float* center = rows + (r + slope_reach) * stride + c + slope_reach;
+            const auto slope = [center](std::ptrdiff_t next) {
+                return slope_of_near * (center[next] - center[-next]) -
+                       slope_of_far * (center[2 * next] - center[-2 * next]);
             };
             slopes.u[r * block_side + c] = slope(1);
             slopes.v[r * block_side + c] = slope(static_cast<std::ptrdiff_t>(stride));
@@ -117,13 +118,13 @@ void keep_better_plain(const BlockSamples& prediction, const BlockSamples& targe
         for (std::size_t cut = 0; cut < row_cuts; ++cut)
             if (sample_in_cut(n % block_side, cut)) sums[n / block_side][cut] += error;
     }
-    float all = sums[0][block_side];
-    for (std::size_t r = 1; r < block_side; ++r) all += sums[r][block_side];
+    float total = sums[0][block_side];
+    for (std::size_t r = 1; r < block_side; ++r) total += sums[r][block_side];
     for (std::size_t edge = 0; edge < block_edges; ++edge) {
         const auto in_row = [&](std::size_t r) { return sums[r][static_cast<std::size_t>(edges[r][edge])]; };
         float sum = in_row(0);
         for (std::size_t r = 1; r < block_side; ++r) sum += in_row(r);
-        const float of_main = all - sum + extra, of_second = sum + extra;
+        const float of_main = total - sum + extra, of_second = sum + extra;
         if (of_main < main.cost[edge]) {
             main.cost[edge] = of_main;
             main.choice[edge] = choice;

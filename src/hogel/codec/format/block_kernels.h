@@ -23,27 +23,27 @@ void interpolate_block_plain(const float* rows, std::size_t stride, const Taps* 
                              BlockSamples& block);
 extern decltype(interpolate_block_plain)& interpolate_block;
 
-// weight_a a + weight_b b; `out` may be a or b.
+// out = weight_a a + weight_b b; `out` may be a or b.
 void mix_blocks_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b, BlockSamples& out);
 extern decltype(mix_blocks_plain)& mix_blocks;
 
-// As mix_blocks(), but `out` must be neither a nor b. Returns Σ (out − target)².
+// Computes mix_blocks() and returns Σ (out − target)². `out` must be neither a nor b.
 float mix_and_compare_plain(const BlockSamples& a, const BlockSamples& b, float weight_a, float weight_b,
                             const BlockSamples& target, BlockSamples& out);
 extern decltype(mix_and_compare_plain)& mix_and_compare;
 
-// Σ (a − b)²; the rows of a are `stride` samples apart.
+// Returns Σ (a − b)²; the rows of a are `stride` samples apart.
 float squared_difference(const float* a, std::size_t stride, const BlockSamples& b);
 float squared_difference_plain(const float* a, std::size_t stride, const BlockSamples& b);
 inline float squared_difference(const BlockSamples& a, const BlockSamples& b) {
     return squared_difference(a.data(), block_side, b);
 }
 
-// Σ (a − b)² of rows of any length, in eight partial sums of every eighth sample.
+// Returns Σ (a − b)² of rows of any length, in eight partial sums of every eighth sample.
 double squared_difference_of_rows_plain(const float* a, const float* b, std::size_t count);
 extern decltype(squared_difference_of_rows_plain)& squared_difference_of_rows;
 
-// The sums Σ (a − b) slope and Σ slope² of a Gauss–Newton step.
+// Sums Σ (a − b) slope and Σ slope² of a Gauss–Newton step.
 struct AlongSlope {
     float difference, square;
     friend bool operator==(const AlongSlope&, const AlongSlope&) = default;
@@ -51,16 +51,16 @@ struct AlongSlope {
 AlongSlope along_slope_plain(const BlockSamples& a, const BlockSamples& b, const BlockSamples& slope);
 extern decltype(along_slope_plain)& along_slope;
 
-// A bit for each sample of magnitude `min_magnitude` or more.
+// Returns one bit per sample: whether its magnitude is at least `min_magnitude`.
 std::uint64_t large_samples_plain(const BlockSamples& block, float min_magnitude);
 extern decltype(large_samples_plain)& large_samples;
 
-// Σ a², in partial sums as above.
+// Returns Σ a², in partial sums as above.
 double sum_of_squares_plain(const float* a, std::size_t count);
 extern decltype(sum_of_squares_plain)& sum_of_squares;
 
-// Slopes of a block along u and v, by central differences in a window of slope_window_side rows. The weights are those
-// of the adjacent samples and of those two away.
+// Slopes of a block along u and v, by central differences in a window of slope_window_side rows: weights of
+// adjacent samples and of samples at a distance of two.
 constexpr float slope_of_near = 2.0f / 3, slope_of_far = 1.0f / 12;
 constexpr std::size_t slope_reach = 2, slope_window_side = block_side + 2 * slope_reach;
 struct Slopes {
@@ -70,25 +70,25 @@ struct Slopes {
 void slopes_of_block_plain(const float* rows, std::size_t stride, Slopes& slopes);
 extern decltype(slopes_of_block_plain)& slopes_of_block;
 
-// For each partition edge, the best prediction so far of the samples on one side of it.
+// Best prediction so far of the samples on one side of each partition edge.
 constexpr std::size_t block_edges = 128;
 using PerEdge = std::array<float, block_edges>;
 struct BestPerEdge {
     PerEdge cost;
-    PerEdge choice;  // the caller's number of the prediction, a small whole number
+    PerEdge choice;  // index of the prediction, from the caller; a small whole number
     friend bool operator==(const BestPerEdge&, const BestPerEdge&) = default;
 };
-// An edge cuts each row of a block. Cut n < block_side contains the first n samples of the row; any other cut n
-// contains all samples from n − block_side on.
+// An edge cuts each row of a block. Cut n < block_side contains the first n samples of the row; cut n >= block_side
+// contains all samples with indices >= n − block_side.
 constexpr std::size_t row_cuts = 2 * block_side;
 constexpr bool sample_in_cut(std::size_t column, std::size_t cut) {
     return cut < block_side ? column < cut : column >= cut - block_side;
 }
 // [row][edge]: the samples of the second partition as a cut of the row.
 using EdgeRowCuts = std::array<std::array<std::int32_t, block_edges>, block_side>;
-// Stores the number `choice` of a prediction for each edge and partition where the squared differences summed over that
-// partition, plus `extra`, are less than the stored cost. All 128 edges are evaluated from the sums of all cuts of the
-// rows.
+// Stores the index `choice` of a prediction for each edge and partition for which the sum of squared differences over
+// the partition, plus `extra`, is less than the stored cost. All 128 edges are evaluated from the sums of all cuts of
+// the rows.
 void keep_better_plain(const BlockSamples& prediction, const BlockSamples& target, float extra, float choice,
                        const EdgeRowCuts& edges, BestPerEdge& main, BestPerEdge& second);
 extern decltype(keep_better_plain)& keep_better;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of block_kernels.cpp, compiled for every SIMD target and chosen when first called. Products are
+// Vector twins of block_kernels.cpp, compiled for every SIMD target and selected at the first call. Products are
 // rounded before they are added, as in the plain versions.
 #include "hogel/codec/format/block_kernels.h"
 #include "hogel/core/simd_targets-inl.h"
@@ -84,7 +84,7 @@ void MixBlocks(const BlockSamples& a, const BlockSamples& b, float weight_a, flo
         hn::StoreU(hn::Add(hn::Mul(of_a, hn::LoadU(d, &a[k])), hn::Mul(of_b, hn::LoadU(d, &b[k]))), d, &out[k]);
 }
 
-// The twin of the plain sum_in_columns(); term(d, k) gives a vector of terms from k on.
+// Twin of the plain sum_in_columns(). term(d, k) returns a vector of terms starting at index k.
 template <class Term>
 HWY_INLINE float SumInColumns(Term&& term) {
     const Row d;
@@ -115,8 +115,8 @@ float MixAndCompare(const BlockSamples& a, const BlockSamples& b, float weight_a
 
 float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& b) {
     return SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
-        const float* at = a + k / block_side * stride + k % block_side;
-        const auto difference = hn::Sub(hn::LoadU(d, at), hn::LoadU(d, &b[k]));
+        const float* samples = a + k / block_side * stride + k % block_side;
+        const auto difference = hn::Sub(hn::LoadU(d, samples), hn::LoadU(d, &b[k]));
         return hn::Mul(difference, difference);
     });
 }
@@ -124,27 +124,28 @@ float SquaredDifference(const float* a, std::size_t stride, const BlockSamples& 
 using Doubles = hn::CappedTag<double, block_side / 2>;
 using FloatsOfDoubles = hn::Rebind<float, Doubles>;
 
-// Σ value² in eight partial sums; vector(k) gives a vector of values from k on, value(k) a single one.
+// Returns Σ value² in eight partial sums; vector(k) returns a vector of values starting at index k, value(k) a single
+// one.
 template <class Vector, class Value>
 HWY_INLINE double SumOfSquares(std::size_t count, Vector&& vector, Value&& value) {
     const Doubles d;
     HWY_ALIGN double sum[block_side];
-    const std::size_t whole = count / block_side * block_side;
+    const std::size_t full_blocks = count / block_side * block_side;
     constexpr std::size_t half = block_side / 2;
     for (std::size_t c = 0; c < half; c += hn::Lanes(d)) {
         auto low = hn::Zero(d), high = hn::Zero(d);
-        for (std::size_t k = c; k < whole; k += block_side) {
-            const auto here = vector(k), next = vector(k + half);
-            low = hn::Add(low, hn::Mul(here, here));
+        for (std::size_t k = c; k < full_blocks; k += block_side) {
+            const auto current = vector(k), next = vector(k + half);
+            low = hn::Add(low, hn::Mul(current, current));
             high = hn::Add(high, hn::Mul(next, next));
         }
         hn::Store(low, d, sum + c);
         hn::Store(high, d, sum + half + c);
     }
-    for (std::size_t k = whole; k < count; ++k) sum[k % block_side] += value(k) * value(k);
-    double all = 0;
-    for (const double s : sum) all += s;
-    return all;
+    for (std::size_t k = full_blocks; k < count; ++k) sum[k % block_side] += value(k) * value(k);
+    double total = 0;
+    for (const double s : sum) total += s;
+    return total;
 }
 
 double SquaredDifferenceOfRows(const float* a, const float* b, std::size_t count) {
@@ -182,23 +183,23 @@ AlongSlope AlongSlopeOf(const BlockSamples& a, const BlockSamples& b, const Bloc
                 return hn::Mul(hn::Sub(hn::LoadU(d, &a[k]), hn::LoadU(d, &b[k])), hn::LoadU(d, &slope[k]));
             }),
             SumInColumns([&](auto d, std::size_t k) HWY_ATTR {
-                const auto here = hn::LoadU(d, &slope[k]);
-                return hn::Mul(here, here);
+                const auto current = hn::LoadU(d, &slope[k]);
+                return hn::Mul(current, current);
             })};
 }
 
 void SlopesOfBlock(const float* rows, std::size_t stride, Slopes& slopes) {
     const Row d;
-    const auto near = hn::Set(d, slope_of_near), far = hn::Set(d, slope_of_far);
-    const auto slope = [&](const float* at, std::size_t next) HWY_ATTR {
-        return hn::Sub(hn::Mul(near, hn::Sub(hn::LoadU(d, at + next), hn::LoadU(d, at - next))),
-                       hn::Mul(far, hn::Sub(hn::LoadU(d, at + 2 * next), hn::LoadU(d, at - 2 * next))));
+    const auto adjacent = hn::Set(d, slope_of_near), distant = hn::Set(d, slope_of_far);
+    const auto slope = [&](const float* samples, std::size_t next) HWY_ATTR {
+        return hn::Sub(hn::Mul(adjacent, hn::Sub(hn::LoadU(d, samples + next), hn::LoadU(d, samples - next))),
+                       hn::Mul(distant, hn::Sub(hn::LoadU(d, samples + 2 * next), hn::LoadU(d, samples - 2 * next))));
     };
     for (std::size_t r = 0; r < block_side; ++r)
         for (std::size_t c = 0; c < block_side; c += hn::Lanes(d)) {
-            const float* at = rows + (r + slope_reach) * stride + slope_reach + c;
-            hn::StoreU(slope(at, 1), d, &slopes.u[r * block_side + c]);
-            hn::StoreU(slope(at, stride), d, &slopes.v[r * block_side + c]);
+            const float* samples = rows + (r + slope_reach) * stride + slope_reach + c;
+            hn::StoreU(slope(samples, 1), d, &slopes.u[r * block_side + c]);
+            hn::StoreU(slope(samples, stride), d, &slopes.v[r * block_side + c]);
         }
 }
 
@@ -222,7 +223,7 @@ void KeepBetter(const BlockSamples& prediction, const BlockSamples& target, floa
         const auto difference = hn::Sub(hn::LoadU(d, &prediction[k]), hn::LoadU(d, &target[k]));
         hn::Store(hn::Mul(difference, difference), d, errors + k);
     }
-    // The sums over all cuts of each row. Products with 0 and 1 are exact, so a fused multiply-add gives the same bits.
+    // Sums over all cuts of each row. Products with 0 and 1 are exact, so a fused multiply-add gives the same bits.
     HWY_ALIGN float sums[block_side][row_cuts];
     for (std::size_t cut = 0; cut < row_cuts; cut += lanes)
         for (std::size_t r = 0; r < block_side; ++r) {
@@ -231,8 +232,8 @@ void KeepBetter(const BlockSamples& prediction, const BlockSamples& target, floa
                 sum = hn::MulAdd(hn::Set(d, errors[r * block_side + c]), hn::Load(d, cuts.of[c] + cut), sum);
             hn::Store(sum, d, sums[r] + cut);
         }
-    float all = sums[0][block_side];
-    for (std::size_t r = 1; r < block_side; ++r) all += sums[r][block_side];
+    float total = sums[0][block_side];
+    for (std::size_t r = 1; r < block_side; ++r) total += sums[r][block_side];
     const auto in_row = [&](std::size_t r, std::size_t edge) HWY_ATTR {
         const auto cut = hn::LoadU(indices, &edges[r][edge]);
 #if !HWY_HAVE_SCALABLE
@@ -254,11 +255,11 @@ void KeepBetter(const BlockSamples& prediction, const BlockSamples& target, floa
         hn::StoreU(hn::IfThenElse(better, cost, so_far), d, &best.cost[edge]);
         hn::StoreU(hn::IfThenElse(better, hn::Set(d, choice), hn::LoadU(d, &best.choice[edge])), d, &best.choice[edge]);
     };
-    const auto whole = hn::Set(d, all), added = hn::Set(d, extra);
+    const auto full_blocks = hn::Set(d, total), added = hn::Set(d, extra);
     for (std::size_t edge = 0; edge < block_edges; edge += lanes) {
         auto sum = in_row(0, edge);
         for (std::size_t r = 1; r < block_side; ++r) sum = hn::Add(sum, in_row(r, edge));
-        keep(hn::Add(hn::Sub(whole, sum), added), edge, main);
+        keep(hn::Add(hn::Sub(full_blocks, sum), added), edge, main);
         keep(hn::Add(sum, added), edge, second);
     }
 }

@@ -10,7 +10,7 @@
 
 namespace hogel::codec::format {
 
-// The basis of the levels of one channel of a block, along u and along v: cosines or single samples.
+// Basis of the levels of one channel of a block, along u and along v: cosines or single samples.
 struct Basis {
     bool cosines_u, cosines_v;
     constexpr bool cosines() const { return cosines_u && cosines_v; }
@@ -18,18 +18,18 @@ struct Basis {
 };
 constexpr std::array<Basis, 4> bases{{{true, true}, {false, false}, {true, false}, {false, true}}};
 
-// Modes of a block: intra; inter from any side (mode_any) or from one side (mode_any + side); partitioned.
+// Modes of a block: intra; inter, predicted from any side (mode_any) or from one side (mode_any + side); partitioned.
 constexpr std::uint8_t mode_intra = 0, mode_any = 1;
 constexpr int inter_modes = 1 + static_cast<int>(ReferenceWeights::sides);  // without intra
 constexpr std::uint8_t mode_partitioned = inter_modes;
-// Intra predictors; those from first_directional on continue the block's borders along a direction.
+// Intra predictors; predictors >= first_directional continue the block's borders along a direction.
 constexpr int intra_predictors = 10, first_directional = 4;
 
 constexpr std::size_t max_number_bits = 30;
 // Classes of the magnitudes of the levels around a level.
 constexpr std::size_t level_classes = 12;
 
-// A model for every syntax element of a block and each of its contexts (docs/format.md).
+// Models of all syntax elements of a block, in each of their contexts (docs/format.md).
 template <class Model>
 struct ModelsOf {
     using Number = std::array<Model, max_number_bits + 1>;
@@ -118,7 +118,7 @@ struct ModelsOf {
 // Adaptive models.
 using BlockModels = ModelsOf<coding::BitModel>;
 
-// The number of each model in the order of for_each().
+// Index of each model in the order of for_each().
 struct BlockModelNumbers : ModelsOf<std::uint16_t> {
     BlockModelNumbers() {
         std::uint16_t next = 0;

@@ -17,7 +17,7 @@ constexpr int one_surface = 12;  // disparities that differ by at most this belo
 std::size_t warped_context(const Block* warped) { return !warped ? 0 : warped->mode == mode_any ? 1 : 2; }
 
 // @param around   number of blocks to the left and above with a mode other than mode_any
-// @param first    whether this is the first hogel, all of whose blocks are intra
+// @param first    whether this is the first hogel, which has only intra blocks
 template <class Coder>
 void code_mode(Coder& coder, typename Coder::Models& models, std::size_t warped, std::size_t around, bool first,
                Block& block) {
@@ -43,7 +43,7 @@ void code_mode(Coder& coder, typename Coder::Models& models, std::size_t warped,
 }
 
 // @param around   number of blocks to the left and above that do not have their first candidate
-// @param unit     of differences from the first candidate
+// @param unit     unit of differences from the first candidate
 template <class Coder>
 void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, std::size_t warped, std::size_t around,
                     int unit, const Candidates& candidates, std::int16_t& disparity) {
@@ -71,7 +71,7 @@ void code_disparity(Coder& coder, typename Coder::Models::ForDisparity& models, 
     }
 }
 
-// The syntax elements of a partitioned block in addition to its main disparity.
+// Codes the syntax elements of a partitioned block in addition to its main disparity.
 // @param warped   the warped block, or null
 template <class Coder>
 void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models, const Block* warped, int unit,
@@ -85,8 +85,8 @@ void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models
     }
     std::size_t angle = block.edge / edge_offsets, offset = block.edge % edge_offsets;
     if (warped && warped->mode == mode_partitioned) {  // neighbouring hogels see nearly the same edge
-        const std::size_t before = warped->edge / edge_offsets;
-        angle = before + code_path(coder, models.angle_by, 5, (angle + edge_angles - before) % edge_angles);
+        const std::size_t warped_angle = warped->edge / edge_offsets;
+        angle = warped_angle + code_path(coder, models.angle_by, 5, (angle + edge_angles - warped_angle) % edge_angles);
         offset = code_path(coder, models.offset_by[warped->edge % edge_offsets], 2, offset);
     } else {
         angle = code_path(coder, models.angle, 5, angle);
@@ -96,28 +96,28 @@ void code_partitions(Coder& coder, typename Coder::Models::ForPartitions& models
     code_disparity(coder, models.second, warped_context(warped), 0, unit, candidates, block.second_disparity);
 }
 
-// The blocks whose syntax elements are contexts for those of a block; each may be null.
+// Blocks that provide contexts for the syntax elements of a block; each may be null.
 struct Neighbours {
     const Block *left, *above, *warped;
 
-    // The number of blocks to the left and above for which a predicate holds.
+    // Returns the number of blocks to the left and above for which a predicate holds.
     template <class Predicate>
     std::size_t count(Predicate&& holds) const {
         return (left && holds(*left) ? 1u : 0u) + (above && holds(*above) ? 1u : 0u);
     }
 };
 
-// Codes which channels of a block have levels, and these levels, which are at coded.levels[used] and after.
+// Codes which channels of a block have levels, and the levels, stored from coded.levels[used] on.
 template <class Coder>
-void code_residual(Coder& coder, typename Coder::Models& models, std::size_t channels, const Neighbours& near,
+void code_residual(Coder& coder, typename Coder::Models& models, std::size_t channels, const Neighbours& neighbours,
                    Block& block, CodedHogel& coded, std::size_t& used) {
     const std::size_t kind = block.mode == mode_intra ? 2 : block.mode == mode_any ? 0 : 1;
     std::uint8_t flags = 0;
     for (std::size_t c = 0; c < channels; ++c) {
         const auto has_levels = [c](const Block& other) { return (other.coded >> c & 1) != 0; };
         const std::size_t chrominance = c > 0 ? 1 : 0;
-        const std::size_t around = near.count(has_levels);
-        const std::size_t warped = !near.warped ? 0 : has_levels(*near.warped) ? 2 : 1;
+        const std::size_t around = neighbours.count(has_levels);
+        const std::size_t warped = !neighbours.warped ? 0 : has_levels(*neighbours.warped) ? 2 : 1;
         auto& of_kind = block.mode == mode_partitioned ? models.partitions.coded[warped][chrominance]
                                                        : models.coded[warped][chrominance][kind];
         if (!coder.bit(of_kind[block.not_first ? 1 : 0][around], has_levels(block))) continue;
@@ -173,7 +173,7 @@ std::vector<const Block*> warped_blocks(const HogelOrder::Hogel& hogel, const st
     std::vector<const Block*> warped(grid.count(), nullptr);
     std::vector<std::int64_t> distance(grid.count(), std::numeric_limits<std::int64_t>::max());
     for (const HogelOrder::Reference& reference : hogel.context_references) {
-        const std::int64_t apart = reference.ds * reference.ds + reference.dt * reference.dt;
+        const std::int64_t hogel_distance = reference.ds * reference.ds + reference.dt * reference.dt;
         const std::vector<Block>& blocks = coded[reference.hogel].blocks;
         for (std::size_t block = 0; block < blocks.size(); ++block) {
             const std::int16_t disparity = blocks[block].disparity;
@@ -184,15 +184,15 @@ std::vector<const Block*> warped_blocks(const HogelOrder::Hogel& hogel, const st
             const auto column = static_cast<std::size_t>(u / side), row = static_cast<std::size_t>(v / side);
             if (column >= grid.columns || row >= grid.rows) continue;
             const std::int64_t du = u % side - half, dv = v % side - half;
-            const std::int64_t here = du * du + dv * dv + apart * shift_unit * shift_unit / 2;
-            // If several blocks are warped to the same place, the nearer surface hides the farther one; on one surface
-            // the block nearest to the middle is taken.
-            const Block*& kept = warped[row * grid.columns + column];
-            std::int64_t& kept_distance = distance[row * grid.columns + column];
-            if (!kept || disparity > kept->disparity + one_surface ||
-                (disparity > kept->disparity - one_surface && here < kept_distance)) {
-                kept = &blocks[block];
-                kept_distance = here;
+            const std::int64_t squared_distance = du * du + dv * dv + hogel_distance * shift_unit * shift_unit / 2;
+            // If several blocks are warped to the same position, the nearer surface hides the farther one; on one
+            // surface the block nearest to the middle is used.
+            const Block*& best = warped[row * grid.columns + column];
+            std::int64_t& best_distance = distance[row * grid.columns + column];
+            if (!best || disparity > best->disparity + one_surface ||
+                (disparity > best->disparity - one_surface && squared_distance < best_distance)) {
+                best = &blocks[block];
+                best_distance = squared_distance;
             }
         }
     }
@@ -204,14 +204,14 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
                 const std::vector<const Block*>& warped, const std::vector<Block>* context_blocks, CodedHogel& coded) {
     const bool first = hogel.references.empty();
     const int unit = disparity_unit(hogel);
-    std::size_t used = 0;  // levels
+    std::size_t used = 0;  // number of levels so far
     coded.blocks.resize(grid.count());
     for (std::size_t k = 0; k < grid.count(); ++k) {
         Block& block = coded.blocks[k];
-        const Neighbours near{k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr,
-                              k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr, warped[k]};
-        const std::size_t context = warped_context(near.warped);
-        const std::size_t other_modes = near.count([](const Block& other) { return other.mode != mode_any; });
+        const Neighbours neighbours{k % grid.columns > 0 ? &coded.blocks[k - 1] : nullptr,
+                                    k >= grid.columns ? &coded.blocks[k - grid.columns] : nullptr, warped[k]};
+        const std::size_t context = warped_context(neighbours.warped);
+        const std::size_t other_modes = neighbours.count([](const Block& other) { return other.mode != mode_any; });
         code_mode(coder, models, context, other_modes, first, block);
         const Candidates candidates = coded.candidates.empty()
                                           ? predictor_candidates(k, grid, coded.blocks, warped[k], context_blocks)
@@ -219,13 +219,13 @@ void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& g
         if (block.mode == mode_intra && !first) {
             block.disparity = candidates.disparity[0];
         } else {
-            const std::size_t around = near.count([](const Block& other) { return other.not_first; });
+            const std::size_t around = neighbours.count([](const Block& other) { return other.not_first; });
             code_disparity(coder, models.main, context, around, unit, candidates, block.disparity);
         }
         if (block.mode == mode_partitioned)
-            code_partitions(coder, models.partitions, near.warped, unit, candidates, block);
+            code_partitions(coder, models.partitions, neighbours.warped, unit, candidates, block);
         block.not_first = block.disparity != candidates.disparity[0];
-        code_residual(coder, models, grid.channels, near, block, coded, used);
+        code_residual(coder, models, grid.channels, neighbours, block, coded, used);
     }
 }
 

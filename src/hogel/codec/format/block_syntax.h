@@ -13,7 +13,7 @@ namespace hogel::codec::format {
 
 using Levels = std::array<std::int32_t, block_samples>;
 
-// The syntax elements of one block.
+// Syntax elements of one block.
 struct Block {
     std::uint8_t mode = mode_intra;
     std::uint8_t intra_predictor = 0;     // if intra
@@ -29,12 +29,12 @@ struct Block {
 
 struct Candidates;
 struct CodedHogel {
-    std::vector<Block> blocks;           // row by row
+    std::vector<Block> blocks;           // row-major
     std::vector<Levels> levels;          // of all coded channels of all blocks, in coding order
     std::vector<Candidates> candidates;  // one per block, if the encoder has already computed them
 };
 
-// The blocks of a hogel, row by row.
+// Blocks of a hogel, row-major.
 struct BlockGrid {
     std::size_t columns, rows, channels;
     std::size_t count() const { return columns * rows; }
@@ -58,20 +58,20 @@ struct Candidates {
         const auto clamped = static_cast<std::int16_t>(std::clamp(value, -max_disparity, max_disparity));
         if (!contain(clamped)) disparity[count++] = clamped;
     }
-    // The class of the largest difference from the first candidate: 0 none, 1 up to 2, 2 up to 12 (one surface), 3
-    // more.
+    // Returns the class of the largest difference from the first candidate: 0 none, 1 up to 2, 2 up to 12 (one
+    // surface), 3 more.
     std::size_t spread() const;
 };
 
-// The predictor candidates of a block.
-// @param blocks           of the same hogel, known up to the current one
+// Returns the predictor candidates of a block.
+// @param blocks           blocks of the same hogel, known up to the current one
 // @param warped           the warped block, or null
 // @param context_blocks   the blocks of the first context reference, or null
 Candidates predictor_candidates(std::size_t block, const BlockGrid& grid, const std::vector<Block>& blocks,
                                 const Block* warped, const std::vector<Block>* context_blocks);
 
-// The unit in which disparities of a hogel are coded: the one that shifts a block by a sixteenth of a direction in the
-// nearest reference.
+// Returns the unit in which disparities of a hogel are coded: the one that shifts a block by a sixteenth of a direction
+// in the nearest reference.
 int disparity_unit(const HogelOrder::Hogel& hogel);
 
 // Codes a number n >= 0 (Exp-Golomb): the number of bits of n + 1 below its leading one, in unary with a model for each
@@ -86,8 +86,8 @@ std::uint32_t code_number(Coder& coder, std::array<Model, max_number_bits + 1>& 
     return result - 1;
 }
 
-// Records syntax elements, to be written when a whole layer is known. The same functions write, read and record syntax
-// elements: each takes a coder and the element's value and returns the value; a reader ignores the value it is given.
+// Records syntax elements, to be written once the layer is complete. The same functions write, read and record syntax
+// elements: each takes a coder and a value and returns the value; a reader ignores its argument.
 class BlockRecorder {
   public:
     using Models = BlockModelNumbers;
@@ -101,7 +101,7 @@ class BlockRecorder {
         return value;
     }
 
-    // For each bit, the number of its model and its value.
+    // For each bit, 2 · index of its model + its value.
     using Record = std::vector<std::uint16_t>;
     Record finish() { return std::move(record_); }
     static constexpr std::uint16_t even_bit = 0xFFFE;
@@ -109,7 +109,7 @@ class BlockRecorder {
   private:
     Record record_;
 };
-// The number of zeros and of ones coded with a model.
+// Numbers of zeros and of ones coded with a model.
 using BitCount = std::array<std::uint32_t, 2>;
 void count_bits(const BlockRecorder::Record& record, std::span<BitCount> counts);
 std::vector<std::uint8_t> write_bits(const BlockRecorder::Record& record, std::vector<coding::BitModel> models);
@@ -151,8 +151,8 @@ template <class Coder>
 void code_hogel(Coder& coder, typename Coder::Models& models, const BlockGrid& grid, const HogelOrder::Hogel& hogel,
                 const std::vector<const Block*>& warped, const std::vector<Block>* context_blocks, CodedHogel& coded);
 
-// Sets the syntax elements of a hogel whose layer is not decoded: every block is predicted from any side with its first
-// candidate and has no levels.
+// Sets the syntax elements of a hogel in a layer that is not decoded: every block is predicted from any side with its
+// first candidate and has no levels.
 void predict_syntax(const BlockGrid& grid, const std::vector<const Block*>& warped,
                     const std::vector<Block>* context_blocks, CodedHogel& coded);
 

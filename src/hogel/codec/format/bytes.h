@@ -14,7 +14,7 @@
 
 namespace hogel::codec::format {
 
-// Writes the numbers and texts of a stream. Numbers are little-endian; a text is its length as 32 bits, then its bytes.
+// Writes the numbers and texts of a stream. Numbers are little-endian; a text is its length in 32 bits, then its bytes.
 class ByteWriter {
   public:
     template <std::unsigned_integral T>
@@ -32,7 +32,7 @@ class ByteWriter {
     std::vector<std::uint8_t> bytes;
 };
 
-// Reads what ByteWriter writes. Throws Error(bad_input), with a message that begins with `what`, if the bytes end too
+// Reads the output of ByteWriter. Throws Error(bad_input), with a message that begins with `what`, if the bytes end too
 // early.
 class ByteReader {
   public:

@@ -25,17 +25,17 @@ void join(float& a, float& b, float& c) {
     c = sum - across + between;
 }
 
-// Calls change() with the three channels of parts of the tile, on all threads.
+// Calls change() with the three channels of ranges of the tile, on all threads.
 template <class Change>
 void for_each_three_channels(View<float, 5> radiance, Change&& change) {
     if (radiance.extent(0) != 3) return;
     const std::size_t count = radiance.size() / 3;
     work::parallel_for((count + colours_per_task - 1) / colours_per_task, [&](std::size_t part) {
-        const auto of = [&](std::size_t channel) {
+        const auto samples_of = [&](std::size_t channel) {
             return radiance[channel].elements().subspan(part * colours_per_task,
                                                         std::min(colours_per_task, count - part * colours_per_task));
         };
-        change(of(0), of(1), of(2));
+        change(samples_of(0), samples_of(1), samples_of(2));
     });
 }
 

@@ -13,24 +13,24 @@ constexpr std::size_t rays_per_task = 1 << 14;
 
 float luminance(float red, float green, float blue) { return (red + green + blue) / 3; }
 
-// Calls change() with the colours of parts of the tile, as three spans or one, on all threads.
+// Calls change() with the colours of ranges of the tile, as three spans or one, on all threads.
 template <class Change>
 void for_each_part(View<float, 5> radiance, Change&& change) {
     const std::size_t channels = radiance.extent(0), count = radiance.size() / channels;
     work::parallel_for((count + rays_per_task - 1) / rays_per_task, [&](std::size_t part) {
-        const auto of = [&](std::size_t channel) {
+        const auto samples_of = [&](std::size_t channel) {
             return radiance[channel].elements().subspan(part * rays_per_task,
                                                         std::min(rays_per_task, count - part * rays_per_task));
         };
         if (channels == 3)
-            change(of(0), of(1), of(2));
+            change(samples_of(0), samples_of(1), samples_of(2));
         else
-            change(of(0));
+            change(samples_of(0));
     });
 }
 
 // Scales the colours of each ray by a factor, and the differences from their mean by a further factor.
-// @param factor_of   returns the factor for a luminance
+// @param factor_of   returns the factor of a luminance
 template <class Factor>
 void scale(View<float, 5> radiance, Factor&& factor_of, float chrominance) {
     struct Scale {

@@ -21,16 +21,16 @@ struct Companding {
     static constexpr float max_chrominance = 1024;
 
     bool changes() const { return tone || chrominance != 1; }
-    /// In place; radiance [c][t][s][v][u].
+    /// Maps radiances [c][t][s][v][u] in place.
     void apply(View<float, 5> radiance) const;
     void undo(View<float, 5> radiance) const;
     friend bool operator==(const Companding&, const Companding&) = default;
 };
 
-/// The light field with its radiances mapped when they are read.
+/// Returns a light field that maps its radiances on reading.
 LightField companded(const LightField& light_field, const Companding& companding);
 
-/// The histogram of the luminances of all faces. Reads the light field once, tile by tile on all threads.
+/// Returns the histogram of the luminances of all faces. Reads the light field once, tile by tile on all threads.
 LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress = {});
 
 }  // namespace hogel::codec::format

@@ -203,7 +203,7 @@ TEST(Companding, impossible_requests_are_refused) {
     }
 }
 
-// The message of the error that reading a header throws; empty if there is none.
+// Returns the message of the error that reading a header throws; empty if there is none.
 std::string complaint(const std::filesystem::path& path) {
     try {
         read_stream_info(path);

@@ -8,8 +8,8 @@
 namespace hogel::codec::format {
 namespace {
 
-// The layer of each of n positions in a row: 0 in the middle, 1 at the ends, then the number of the halving that
-// reaches it.
+// Returns the layer of each of n positions in a row: 0 in the middle, 1 at the ends, then the index of the halving
+// that reaches it.
 std::vector<int> halving_layers(std::size_t n) {
     std::vector<int> layers(n, 1);
     layers[(n - 1) / 2] = 0;
@@ -30,7 +30,7 @@ std::vector<int> halving_layers(std::size_t n) {
     }
 }
 
-// The nearest references on each side, in the given order.
+// Returns the nearest references on each side, in the given order.
 std::vector<HogelOrder::Reference> nearest(std::vector<HogelOrder::Reference> references, std::size_t per_side) {
     const auto side = [](const HogelOrder::Reference& r) {
         return (r.dt != 0 ? 2u : 0u) + (r.ds + r.dt > 0 ? 1u : 0u);

@@ -11,10 +11,10 @@ namespace {
 constexpr int max_state = 40;
 constexpr double bits_of_change = 7;  // estimated cost of a changed state
 
-// Index of a state in a table.
-std::size_t place_of(int state) {
-    const int place = state + max_state;
-    return static_cast<std::size_t>(place);
+// Returns the index of a state in a table.
+std::size_t index_of(int state) {
+    const int index = state + max_state;
+    return static_cast<std::size_t>(index);
 }
 
 struct Probabilities {
@@ -23,18 +23,18 @@ struct Probabilities {
     Probabilities() {
         for (int state = -max_state; state <= max_state; ++state) {
             const double p = 1 / (1 + std::exp2(-state / 4.0));
-            const std::size_t at = place_of(state);
-            zero[at] = static_cast<std::uint16_t>(std::lround(65536 * p));
-            bits[at] = {-std::log2(p), -std::log2(1 - p)};
+            const std::size_t index = index_of(state);
+            zero[index] = static_cast<std::uint16_t>(std::lround(65536 * p));
+            bits[index] = {-std::log2(p), -std::log2(1 - p)};
         }
     }
 };
 const Probabilities probabilities;
 
-coding::BitModel model_of(int state) { return coding::BitModel(probabilities.zero[place_of(state)]); }
+coding::BitModel model_of(int state) { return coding::BitModel(probabilities.zero[index_of(state)]); }
 
 double bits_for(const BitCount& count, int state) {
-    const auto& bits = probabilities.bits[place_of(state)];
+    const auto& bits = probabilities.bits[index_of(state)];
     return count[0] * bits[0] + count[1] * bits[1];
 }
 
@@ -67,8 +67,8 @@ std::vector<coding::BitModel> ModelStates::models_in_order() const {
 
 BlockModels ModelStates::models() const {
     BlockModels models;
-    std::size_t at = 0;
-    models.for_each([&](coding::BitModel& model) { model = model_of(states_[at++]); });
+    std::size_t index = 0;
+    models.for_each([&](coding::BitModel& model) { model = model_of(states_[index++]); });
     return models;
 }
 

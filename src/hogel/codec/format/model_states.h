@@ -8,13 +8,13 @@
 
 namespace hogel::codec::format {
 
-// The initial states of the models, shared by all hogels of a layer, so that each hogel can be decoded without the
+// Initial states of the models, shared by all hogels of a layer, so that each hogel can be decoded without the
 // others. A state is the logarithm of the ratio of zeros to ones, in quarters of a bit.
 class ModelStates {
   public:
-    // Zeros and ones are equally likely.
+    // Initialises all models to equally likely zeros and ones.
     ModelStates();
-    // States fitted to counted bits; a state stays that of `before` if the change would cost more than it gains.
+    // Fits the states to counted bits; a state of `before` is kept if the change would cost more than it saves.
     ModelStates(std::span<const BitCount> counts, const ModelStates& before);
 
     std::size_t count() const { return states_.size(); }
@@ -29,7 +29,7 @@ class ModelStates {
     std::vector<int> states_;
 };
 
-// The lengths of the codes of a layer.
+// Lengths of the codes of the hogels of a layer.
 class CodeLengths {
   public:
     template <class Coder>

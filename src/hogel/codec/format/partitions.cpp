@@ -8,7 +8,7 @@
 namespace hogel::codec::format {
 namespace {
 
-// The cut of a row that contains exactly these samples, the first or the last ones of the row.
+// Returns the cut of a row that contains exactly these samples, the first or the last of the row.
 std::int32_t cut_of(std::uint64_t samples) {
     for (std::size_t cut = 0; cut < row_cuts; ++cut) {
         std::uint64_t in_cut = 0;
@@ -23,7 +23,7 @@ struct Edges {
     EdgeRowCuts row_cuts_of{};
     Edges() {
         for (std::size_t angle = 0; angle < edge_angles; ++angle) {
-            // Rounded to multiples of 2^-14, so that every machine has the same.
+            // Rounded to multiples of 2^-14, so that all machines agree.
             const double phi = 2 * std::numbers::pi * double(angle) / double{edge_angles};
             const long along_u = std::lround(std::cos(phi) * 0x1p14), along_v = std::lround(std::sin(phi) * 0x1p14);
             const long unit = std::abs(along_u) + std::abs(along_v);

@@ -9,19 +9,20 @@
 
 namespace hogel::codec::format {
 
-// Where a nearer surface ends inside a block, a straight edge splits the block into two partitions: the main one, which
-// holds its middle, and the second one.
+// If a nearer surface ends inside a block, a straight edge splits the block into two partitions: the main partition,
+// with the middle of the block, and the second partition.
 
 constexpr std::size_t edge_angles = 32, edge_offsets = 4;
 static_assert(edge_angles * edge_offsets == block_edges);
 
-// The edge whose normal has an angle of `angle` 32nds of a full turn, at a distance of `offset` from the middle of the
-// block, in units of one sample for edges along rows and columns and of √2 samples for diagonal ones.
+// Returns the index of the edge with a normal at `angle` 32nds of a full turn, at a distance of `offset` from the
+// middle of the block. The unit of `offset` is one sample for edges along rows and columns, √2 samples for diagonal
+// edges.
 constexpr std::size_t edge_number(std::size_t angle, std::size_t offset) { return angle * edge_offsets + offset; }
 
-// One bit per sample of a block, lowest first: whether it belongs to the second partition.
+// Returns one bit per sample of a block, lowest first: whether it belongs to the second partition.
 std::uint64_t partition_mask(std::size_t edge);
-// The masks of all edges as cuts of their rows.
+// Returns the masks of all edges as cuts of their rows.
 const EdgeRowCuts& edge_row_cuts();
 
 // Replaces the samples of the second partition of `block` by those of `second`.

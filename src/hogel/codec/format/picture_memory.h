@@ -11,12 +11,12 @@
 
 namespace hogel::codec::format {
 
-// Memory for the planes of a tile, all of equal size, cut from large allocations. These get huge pages, for which a
-// single plane is too small, and supplying small pages takes longer than writing them. Thread-safe.
+// Memory resource for the planes of a tile, all of equal size, cut from large allocations. Large allocations get huge
+// pages; a single plane is too small for them, and supplying small pages takes longer than writing them. Thread-safe.
 class PictureMemory final : public std::pmr::memory_resource {
   public:
     // @param plane_bytes   size of each plane
-    // @param planes        maximum number of planes at a time
+    // @param planes        maximum number of planes at the same time
     PictureMemory(std::size_t plane_bytes, std::size_t planes)
         : plane_bytes_(plane_bytes),
           planes_a_block_(std::clamp<std::size_t>(max_block_bytes / plane_bytes, 1, std::max<std::size_t>(planes, 1))) {

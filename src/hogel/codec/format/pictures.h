@@ -12,14 +12,16 @@
 
 namespace hogel::codec::format {
 
-// The channels of a hogel of a tile, padded to whole blocks by their last samples, as luminance and chrominance.
+// Returns the channels of a hogel of a tile, padded to whole blocks by their last samples, as luminance and
+// chrominance.
 Picture picture_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
-// As above, as red, green and blue.
+// Returns the same as red, green and blue.
 Picture copy_of(const LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
-// A picture that refers to the hogel in the tile, whose hogels must be whole blocks. Must not outlive the tile.
+// Returns a picture that refers to the hogel in the tile. Hogels must consist of whole blocks. Must not outlive the
+// tile.
 Picture as_in_tile(LightFieldTile& tile, const TileSetup& setup, std::size_t s, std::size_t t);
 
-// Calls use(channel, v, samples) with the rows of a picture, as red, green and blue and without padding.
+// Calls use(channel, v, samples) for the rows of a picture, as red, green and blue and without padding.
 template <class Use>
 void for_each_row(const Picture& picture, const TileSetup& setup, Use&& use) {
     std::array<std::vector<float>, 3> row;

@@ -15,18 +15,18 @@
 
 namespace hogel::codec::format {
 
-// The samples of one channel of a hogel, [v][u], padded to whole blocks: either in memory of its own, which is not
-// initialised, or a reference to memory elsewhere.
+// Samples of one channel of a hogel, [v][u], padded to whole blocks: in owned, uninitialised memory, or in memory of
+// the caller.
 class Plane {
   public:
     std::size_t width, height;
     std::span<float> samples;
 
     Plane(std::size_t w, std::size_t h, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-        : width(w), height(h), own_(allocate(w * h, memory)) {
-        samples = {own_.get(), w * h};
+        : width(w), height(h), owned_(allocate(w * h, memory)) {
+        samples = {owned_.get(), w * h};
     }
-    Plane(std::size_t w, std::size_t h, float* elsewhere) : width(w), height(h), samples(elsewhere, w * h) {}
+    Plane(std::size_t w, std::size_t h, float* external) : width(w), height(h), samples(external, w * h) {}
 
   private:
     struct Return {
@@ -34,17 +34,17 @@ class Plane {
         std::size_t bytes;
         void operator()(float* lent) const { memory->deallocate(lent, bytes, alignment); }
     };
-    using Own = std::unique_ptr<float, Return>;
+    using Owned = std::unique_ptr<float, Return>;
     static constexpr std::size_t alignment = 64;
-    static Own allocate(std::size_t count, std::pmr::memory_resource* memory) {
+    static Owned allocate(std::size_t count, std::pmr::memory_resource* memory) {
         const std::size_t bytes = count * sizeof(float);
-        return Own(static_cast<float*>(memory->allocate(bytes, alignment)), Return{memory, bytes});
+        return Owned(static_cast<float*>(memory->allocate(bytes, alignment)), Return{memory, bytes});
     }
 
-    Own own_{nullptr, Return{}};
+    Owned owned_{nullptr, Return{}};
 };
 
-// A window of a plane, which repeats its outermost samples beyond its borders. It refers to the plane, or to a copy if
+// Window of a plane; beyond its borders the plane repeats its outermost samples. Refers to the plane, or to a copy if
 // it crosses a border.
 class PlaneWindow {
   public:
@@ -72,14 +72,14 @@ class PlaneWindow {
     std::array<float, window_side * window_side> copy_;
 };
 
-// The shift of a block's content in another hogel, in 64ths of a direction along u and v.
+// Shift of a block's content in another hogel, in 64ths of a direction along u and v.
 constexpr int shift_unit = 64;
 struct Shift {
     int u = 0, v = 0;
 };
 
-// A disparity is the shift of a block's content from one hogel to the next, in 64ths of a direction along u: 64 d/(ζ
-// ΔU). Along v the shift is `aspect` = ΔU/ΔV times as large.
+// The disparity is the shift of a block's content from one hogel to the next, in 64ths of a direction along u: 64 d/(ζ
+// ΔU). Along v the shift is larger by the factor `aspect` = ΔU/ΔV.
 constexpr int max_disparity = 1 << 14;
 inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, float aspect) {
     if (reference.dt == 0) return {-disparity * reference.ds, 0};
@@ -92,16 +92,16 @@ inline Shift shift_of(int disparity, const HogelOrder::Reference& reference, flo
 // repeats its outermost samples. The order of the additions is part of the format.
 void fetch_warped(const Plane& plane, int x, int y, Shift shift, BlockSamples& block);
 
-// The range of blocks that fetch_warped() reads for the block in a column and row.
+// Range of blocks read by fetch_warped() for the block in a column and row.
 struct BlockRange {
     std::size_t first_column, last_column, first_row, last_row;
 };
 BlockRange fetched_blocks(std::size_t columns, std::size_t rows, std::size_t column, std::size_t row, Shift shift);
 
-// Chooses the references that a block is predicted from: those with the least expected noise at its disparity.
+// Selects the references for the prediction of a block: those with the least expected noise at its disparity.
 class ReferenceWeights {
   public:
-    // @param noise   quantisation noise of each hogel of the order, relative to that of the first layer
+    // @param noise   quantisation noise of each hogel of the order, relative to the noise of the first layer
     ReferenceWeights(const HogelOrder::Hogel& hogel, std::span<const float> noise, float aspect);
 
     enum class Side { any, left, right, above, below };
@@ -112,8 +112,8 @@ class ReferenceWeights {
         std::array<float, 2> weight;             // their sum is 1
         std::array<Shift, 2> shift;
     };
-    // The best two references for any side, the best one for a single side, none if there is no reference. Valid until
-    // the next call.
+    // Returns the best two references for any side, the best one for a single side, none if there is no reference.
+    // Valid until the next call.
     const Choice& choose(int disparity, Side side) { return choices_for(disparity)[static_cast<std::size_t>(side)]; }
 
   private:
@@ -123,7 +123,7 @@ class ReferenceWeights {
         Choices choices;
     };
     struct Fixed {
-        float cost;  // the part of the noise that does not depend on the shift
+        float cost;  // noise that does not depend on the shift
         Side side;
     };
 
@@ -132,7 +132,7 @@ class ReferenceWeights {
     const HogelOrder::Hogel& hogel_;
     std::vector<Fixed> fixed_;  // one per reference
     float aspect_;
-    // A cache, because neighbouring blocks often have the same disparity.
+    // Cached, because neighbouring blocks often have the same disparity.
     static constexpr std::size_t cached_choices = 64;
     std::unique_ptr<Cached[]> cache_;
 };

@@ -79,16 +79,16 @@ void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& 
 
 namespace {
 
-// The decoded samples along one side of a block, from the corner on.
+// Decoded samples along one side of a block, starting at the corner.
 using Border = std::array<float, 1 + 2 * block_side>;
-// Predicts the sample of a block `along` samples along the first border and `away` samples from it by continuing the
-// borders along a direction. If the direction leads past the corner, the sample comes from the other border.
-// @param halves   half samples by which the direction moves along the first border from one row to the next
+// Predicts a sample of a block, `along` samples along the first border and `away` samples from it, by continuing the
+// borders along a direction. If the direction leads past the corner, uses a sample of the other border.
+// @param halves   shift of the direction along the first border from one row to the next, in half samples
 float along_direction(const Border& border, const Border& other, int halves, int along, int away) {
-    const int at = 2 * along + halves * (away + 1), on_other = 1 + away + 2 * (along + 1) / halves;
-    if (at < -2) return other[static_cast<std::size_t>(on_other)];
-    const std::size_t index = static_cast<std::size_t>(at + 2) / 2;
-    return at % 2 == 0 ? border[index] : 0.5f * (border[index] + border[index + 1]);
+    const int position = 2 * along + halves * (away + 1), on_other = 1 + away + 2 * (along + 1) / halves;
+    if (position < -2) return other[static_cast<std::size_t>(on_other)];
+    const std::size_t index = static_cast<std::size_t>(position + 2) / 2;
+    return position % 2 == 0 ? border[index] : 0.5f * (border[index] + border[index + 1]);
 }
 
 void predict_along(const Plane& plane, std::size_t x, std::size_t y, int predictor, BlockSamples& block) {
@@ -96,14 +96,14 @@ void predict_along(const Plane& plane, std::size_t x, std::size_t y, int predict
     Border left, above;
     const auto sample = [&](std::size_t column, std::size_t row) { return plane.samples[row * plane.width + column]; };
     const bool on_left = x > 0, on_top = y > 0;
-    const float none = on_left ? sample(x - 1, y) : on_top ? sample(x, y - 1) : 0;
-    left[0] = above[0] = on_left && on_top ? sample(x - 1, y - 1) : none;
+    const float missing = on_left ? sample(x - 1, y) : on_top ? sample(x, y - 1) : 0;
+    left[0] = above[0] = on_left && on_top ? sample(x - 1, y - 1) : missing;
     for (std::size_t k = 0; k < 2 * block_side; ++k) {
-        left[1 + k] = on_left ? sample(x - 1, y + std::min(k, block_side - 1)) : none;
-        above[1 + k] = on_top ? sample(std::min(x + k, plane.width - 1), y - 1) : none;
+        left[1 + k] = on_left ? sample(x - 1, y + std::min(k, block_side - 1)) : missing;
+        above[1 + k] = on_top ? sample(std::min(x + k, plane.width - 1), y - 1) : missing;
     }
     constexpr std::array<int, intra_predictors - first_directional> halves{2, 1, -1, -2, -1, 1};
-    constexpr int left_from = first_directional + 4;  // the ones before it continue the border above
+    constexpr int left_from = first_directional + 4;  // predictors before it continue the border above
     const int slope = halves[static_cast<std::size_t>(predictor - first_directional)];
     for (int r = 0; r < static_cast<int>(block_side); ++r)
         for (int c = 0; c < static_cast<int>(block_side); ++c)
@@ -127,7 +127,7 @@ void predict_intra(const Plane& plane, std::size_t x, std::size_t y, int predict
         for (std::size_t r = 0; r < block_side; ++r)
             for (std::size_t c = 0; c < block_side; ++c) block[r * block_side + c] = value(r, c);
     };
-    if (predictor == 0) {  // a surface through both borders
+    if (predictor == 0) {  // interpolates between both borders
         constexpr std::array<float, block_side + 1> number{0, 1, 2, 3, 4, 5, 6, 7, 8};
         fill([&](std::size_t r, std::size_t c) {
             return (number[7 - c] * left[r] + number[c + 1] * above[7] + number[7 - r] * above[c] +

@@ -6,13 +6,13 @@
 
 namespace hogel::codec::format {
 
-// The decoded channels of one hogel, padded to whole blocks.
+// Decoded channels of one hogel, padded to whole blocks.
 using Picture = std::vector<Plane>;
 
-// Context references of a hogel on each side. More of them make the contexts worse.
+// Number of context references of a hogel on each side. More references make the contexts worse.
 constexpr std::size_t context_references_per_side = 1;
 
-// Parameters that all hogels of a tile share.
+// Parameters shared by all hogels of a tile.
 struct TileSetup {
     // @param v_per_u   ΔU/ΔV
     TileSetup(HogelOrder tile_order, std::size_t directions_u, std::size_t directions_v, std::size_t channels,
@@ -23,18 +23,18 @@ struct TileSetup {
     BlockGrid grid;
     std::size_t width, height;  // in directions, without padding
     float aspect;               // ΔU/ΔV
-    std::vector<float> step;    // of the quantiser, for each layer of the order
+    std::vector<float> step;    // quantiser step of each layer of the order
     std::vector<float> noise;   // (step / step of layer 0)², for each hogel of the order
-    // The reconstruction offset: a level is reconstructed as its number plus this fraction of a step, away from zero,
-    // because most values that are rounded to it are larger.
+    // Returns the reconstruction offset: the fraction of a step that is added to a level, away from zero, because most
+    // values that are rounded to a level are larger.
     float reconstruction_offset(bool intra) const { return intra ? 0.0625f : 0.1875f; }
     bool whole_blocks() const { return width == grid.columns * block_side && height == grid.rows * block_side; }
-    // A new picture, not initialised. Must not outlive the setup, which owns its memory.
+    // Returns a new, uninitialised picture. Must not outlive the setup, which owns its memory.
     Picture blank() const;
     std::unique_ptr<PictureMemory> memory;
 };
 
-// The orthonormal DCT of a block along the axes on which a basis has cosines, and its inverse. The order of the
+// Apply the orthonormal DCT of a block, and its inverse, along the axes on which a basis has cosines. The order of the
 // additions is part of the format.
 void transform_block(Basis basis, const BlockSamples& in, BlockSamples& out);
 void inverse_transform_block(Basis basis, const BlockSamples& in, BlockSamples& out);
@@ -58,14 +58,14 @@ bool predict_partitions(const std::vector<Picture>& pictures, const HogelOrder::
                         const BlockChoices& choices, std::size_t channel, std::size_t x, std::size_t y,
                         BlockSamples& prediction);
 
-// Adds the residual, levels times a step, to a prediction and stores the block.
+// Stores a block: the prediction plus the residual, levels times a step.
 // @param levels   null: no residual
 void place_block(Plane& plane, std::size_t x, std::size_t y, const BlockSamples& prediction, const Levels* levels,
                  Basis basis, float step, float reconstruction_offset);
 
 enum class BlockState : std::uint8_t { unknown, wanted, reconstructed };
 
-// Reconstructs the wanted blocks of a hogel, whose syntax elements are known, from the pictures of its references.
+// Reconstructs the wanted blocks of a hogel with known syntax elements, from the pictures of its references.
 // Throws Error(bad_input) if a block has no reference.
 void reconstruct(const TileSetup& setup, std::size_t hogel, const CodedHogel& coded, std::span<BlockState> blocks,
                  std::vector<Picture>& pictures);

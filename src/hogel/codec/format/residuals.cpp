@@ -8,7 +8,7 @@
 namespace hogel::codec::format {
 namespace {
 
-// The number of bits of the magnitude.
+// Returns the number of bits of the magnitude.
 int size_of(std::int32_t number) {
     const auto bits = static_cast<std::uint32_t>(number);
     return std::bit_width(number < 0 ? 0 - bits : bits);
@@ -16,8 +16,8 @@ int size_of(std::int32_t number) {
 
 }  // namespace
 
-ResidualContexts::Context ResidualContexts::at(std::size_t v, std::size_t u, const ResidualContexts* before) const {
-    const std::size_t here = v * width_ + u;
+ResidualContexts::Context ResidualContexts::at(std::size_t v, std::size_t u, const ResidualContexts* previous) const {
+    const std::size_t index = v * width_ + u;
     Context context{0, 0, 2};
     int sum = 0, weights = 0;
     const auto see = [&](std::int8_t size, int weight) {
@@ -32,13 +32,13 @@ ResidualContexts::Context ResidualContexts::at(std::size_t v, std::size_t u, con
         else
             context.sign += size > 0 ? 1u : size < 0 ? ~std::size_t{0} : 0u;
     };
-    if (u > 0) see_beside(sizes_[here - 1]);
+    if (u > 0) see_beside(sizes_[index - 1]);
     if (v > 0) {
-        see_beside(sizes_[here - width_]);
-        if (u > 0) see(sizes_[here - width_ - 1], 1);
-        if (u + 1 < width_) see(sizes_[here - width_ + 1], 1);
+        see_beside(sizes_[index - width_]);
+        if (u > 0) see(sizes_[index - width_ - 1], 1);
+        if (u + 1 < width_) see(sizes_[index - width_ + 1], 1);
     }
-    if (before) see(before->sizes_[here], 2);
+    if (previous) see(previous->sizes_[index], 2);
     if (weights > 0) context.mean = static_cast<std::size_t>((sum + weights / 2) / weights);
     return context;
 }
@@ -53,9 +53,10 @@ template <class Coder>
 Residual code_residual(Coder& coder, ResidualModels& models, const ResidualContexts::Context& context,
                        const Residual& residual) {
     auto& of_size = models.size[context.special][context.mean];
-    const unsigned given = residual.special ? unsigned{ResidualModels::special} : unsigned(size_of(residual.number));
+    const unsigned size_class =
+        residual.special ? unsigned{ResidualModels::special} : unsigned(size_of(residual.number));
     unsigned node = 1;
-    for (int bit = 5; bit >= 0; --bit) node = node * 2 + coder.bit(of_size[node], given >> bit & 1);
+    for (int bit = 5; bit >= 0; --bit) node = node * 2 + coder.bit(of_size[node], size_class >> bit & 1);
     const unsigned size = std::min(node - 64, unsigned{ResidualModels::special});
     if (size == ResidualModels::special) return {0, true};
     if (size == 0) return {};

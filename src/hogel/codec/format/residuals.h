@@ -9,7 +9,7 @@
 
 namespace hogel::codec::format {
 
-// The residual of a sample: a whole number, or "special", whose meaning the coder defines.
+// Residual of a sample: a whole number, or "special" with a meaning defined by the coder.
 struct Residual {
     std::int32_t number = 0;
     bool special = false;
@@ -23,18 +23,18 @@ struct ResidualModels {
     std::array<std::array<coding::BitModel, 4>, sizes> below_highest;         // [size][bits so far]
 };
 
-// Contexts for the residuals of an array [v][u], from the sizes of those coded so far (negative for negative numbers).
+// Contexts for the residuals of an array [v][u], from the sizes of the coded residuals (negative for negative numbers).
 class ResidualContexts {
   public:
     ResidualContexts(std::size_t width, std::size_t height) : width_(width), sizes_(width * height) {}
 
     struct Context {
         std::size_t special;  // number of special residuals to the left and above
-        std::size_t mean;     // mean size of the neighbours that are not special
+        std::size_t mean;     // mean size of the neighbours, without special ones
         std::size_t sign;     // signs to the left and above: 0 (both negative) to 4 (both positive)
     };
     // @param before   the array of the previous channel, or null
-    Context at(std::size_t v, std::size_t u, const ResidualContexts* before) const;
+    Context at(std::size_t v, std::size_t u, const ResidualContexts* previous) const;
     void set(std::size_t v, std::size_t u, const Residual& residual);
 
   private:
@@ -42,7 +42,7 @@ class ResidualContexts {
     std::vector<std::int8_t> sizes_;
 };
 
-// Writes residuals. Writer and reader share code_residual(): a writer returns its argument, a reader returns what it
+// Writes residuals. Writer and reader share code_residual(): a writer returns its argument, a reader the value that it
 // reads.
 class ResidualWriter {
   public:

@@ -24,7 +24,7 @@ class Stacking {
         grid_.directions_v = rows_ ? tile.nt : tile.ns;
     }
 
-    // The stacked light field, and the range of it that holds a part of the tile.
+    // Grid of the stacked light field, and its range for a part of the tile.
     const LightFieldGrid& grid() const { return grid_; }
     HogelRange range(const HogelRange& part) const {
         return rows_ ? HogelRange{part.s0, 0, part.ns, 1} : HogelRange{part.t0, 0, part.nt, 1};
@@ -46,8 +46,8 @@ class Stacking {
     }
 
   private:
-    // Calls use(channel, row and column of a hogel in the part, its index among the stacked hogels, its row of
-    // directions there).
+    // Calls use(channel, row and column of a hogel in the part, index of its stacked hogel, row of its directions in
+    // it).
     template <class Use>
     void for_each_hogel(const HogelRange& part, Use&& use) const {
         for (std::size_t c = 0; c < grid_.channels; ++c)

@@ -29,13 +29,13 @@ CompressionOptions in_layout(StreamLayout layout, std::optional<HogelRange> tile
     return options;
 }
 
-// The error code that reading bytes as a stream gives.
+// Returns the error code that reading bytes as a stream gives.
 ErrorCode outcome_of(const TestFolder& folder, const std::vector<std::uint8_t>& bytes) {
     write_bytes(folder / "b.hgl", bytes);
     return code_of([&] { decoded(folder / "b.hgl"); });
 }
 
-// The light field with rows and columns exchanged, of hogels and of directions.
+// Returns the light field with rows and columns exchanged, of hogels and of directions.
 LightFieldBuffer transposed(const LightFieldBuffer& field) {
     LightFieldGrid grid = field.grid();
     std::swap(grid.hogels_s, grid.hogels_t);

@@ -29,7 +29,7 @@ bool tile_fits(const LightFieldGrid& grid, const HogelRange& tile) {
     return budget > 0;
 }
 
-// Whether two streams have the same rays. Their channels may differ.
+// Returns whether two streams have the same rays; their channels may differ.
 bool same_faces(const StreamInfo& a, const StreamInfo& b) {
     const auto rays = [](const StreamInfo& info) {
         std::vector<LightFieldGrid> faces = info.faces();
@@ -118,7 +118,7 @@ void StreamWriter::finish(std::uint64_t filler) {
         file.close();
         output.commit();
     }
-    if (Communicator* const all = communicator()) all->meet();  // the file has its name
+    if (Communicator* const ranks = communicator()) ranks->meet();  // waits until the file has its name
 }
 
 void StreamWriter::write(core::RawFile& file, std::uint64_t filler) {
@@ -135,13 +135,13 @@ void StreamWriter::write(core::RawFile& file, std::uint64_t filler) {
     index.put(core::checksum(index.bytes));
     file.write(0, header.data(), header.size());
     file.write(header.size(), index.bytes.data(), index.bytes.size());
-    std::uint64_t at = header.size() + index.bytes.size();
+    std::uint64_t offset_in_file = header.size() + index.bytes.size();
     Bytes bytes;
     const auto copy = [&](const core::RawFile& from, std::uint64_t offset, std::uint64_t count) {
         bytes.resize(count);
         from.read(offset, bytes.data(), bytes.size());
-        file.write(at, bytes.data(), bytes.size());
-        at += bytes.size();
+        file.write(offset_in_file, bytes.data(), bytes.size());
+        offset_in_file += bytes.size();
     };
     for (const StreamEntry& entry : entries) copy(files_->spooled, entry.offset, entry.bytes);
     if (info_.depth.bytes > 0) {
@@ -155,25 +155,25 @@ StreamReader::StreamReader(const std::filesystem::path& path, Content content)
     : file_(path, core::RawFile::Mode::read, path),
       what_(fmt::format("cannot read '{}'", path.string())),
       end_(file_.size()) {
-    const std::uint64_t all = end_;
+    const std::uint64_t file_end = end_;
     read_index(read_header(0));
     if (content == Content::light_field) return;
     if (!info_.depth_there)
         damaged(info_.depth.bytes > 0 ? "it is truncated: its depth is missing" : "it has no depth");
     const StreamHeader outer = std::move(info_);
-    end_ = all;
+    end_ = file_end;
     index_.clear();
-    read_index(read_header(all - outer.depth.bytes));
+    read_index(read_header(file_end - outer.depth.bytes));
     if (info_.grid.channels != 1 || !same_faces(info_, outer) || info_.depth.bytes > 0)
         damaged("the stream behind it is not its depth");
 }
 
 // Reads the header and returns the offset of its end.
-std::uint64_t StreamReader::read_header(std::uint64_t at) {
-    const std::uint64_t size = end_ - at;
+std::uint64_t StreamReader::read_header(std::uint64_t offset_in_file) {
+    const std::uint64_t size = end_ - offset_in_file;
     if (size < prefix + 4) damaged("it is too short for a compressed light field");
     Bytes header(prefix);
-    file_.read(at, header.data(), prefix);
+    file_.read(offset_in_file, header.data(), prefix);
     if (!std::equal(stream_magic.begin(), stream_magic.end(), header.begin()))
         damaged("it is not a compressed light field");
     ByteReader begin(std::span<const std::uint8_t>(header).subspan(stream_magic.size()), what_);
@@ -183,7 +183,7 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     const auto length = begin.take<std::uint32_t>();
     if (length > max_header || length + prefix + 4 > size) damaged("its header is longer than the file");
     header.resize(prefix + length + 4);
-    file_.read(at + prefix, header.data() + prefix, length + 4);
+    file_.read(offset_in_file + prefix, header.data() + prefix, length + 4);
     ByteReader end(std::span<const std::uint8_t>(header).last(4), what_);
     if (end.take<std::uint32_t>() != core::checksum(std::span(header).first(prefix + length)))
         damaged("its header is damaged");
@@ -201,7 +201,7 @@ std::uint64_t StreamReader::read_header(std::uint64_t at) {
     for (const LightFieldGrid& part : parts_)
         if (!tile_fits(part, info_.tile)) damaged("its header has impossible tiles");
     tiling_.emplace(info_.grid, info_.tile);
-    return at + header.size();
+    return offset_in_file + header.size();
 }
 
 void StreamReader::read_index(std::uint64_t header) {
@@ -254,9 +254,9 @@ namespace hogel {
 using namespace codec::format;
 
 std::vector<LightFieldGrid> StreamInfo::faces() const {
-    std::vector<LightFieldGrid> all{grid};
-    all.insert(all.end(), sides.begin(), sides.end());
-    return all;
+    std::vector<LightFieldGrid> grids{grid};
+    grids.insert(grids.end(), sides.begin(), sides.end());
+    return grids;
 }
 
 bool is_stream(const std::filesystem::path& path) {

@@ -15,7 +15,7 @@
 
 namespace hogel::codec::format {
 
-// The tiles of an array of hogels, numbered row by row.
+// Tiles of an array of hogels, numbered row by row.
 class Tiling {
   public:
     Tiling(const LightFieldGrid& grid, const HogelRange& size);
@@ -29,43 +29,43 @@ class Tiling {
     HogelRange size_;
 };
 
-// The largest tile of a stream, a limit so that a damaged header cannot make a reader allocate more.
+// Maximum size of a tile; limits the memory that a reader allocates for a damaged header.
 constexpr std::size_t max_tile_samples = std::size_t{1} << 28;
 
-// The parts of a stream, arrays of directions whose tiles follow each other: its faces, or the array into which they
-// unfold. Throws Error(usage) for faces that do not unfold.
+// Returns the parts of a stream: arrays of directions with consecutive tiles. A part is a face, or the array of all
+// unfolded faces. Throws Error(usage) for faces that do not unfold.
 std::vector<LightFieldGrid> coded_parts(const StreamInfo& info);
-// The directions of a part that belong to the light field.
+// Returns the directions of a part that belong to the light field.
 DirectionCross counted(const StreamInfo& info);
-// The coder for the tiles of a part. Throws Error(usage) for a method that does not exist.
+// Returns the coder for the tiles of a part. Throws Error(usage) for a method that does not exist.
 std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part);
 
-// A layer of a tile in a file.
+// Layer of a tile in a file.
 struct StreamEntry {
     std::uint64_t offset, bytes;
     std::uint32_t checksum;
 };
 
-// Writes a stream from its tiles, which are appended one after the other (and again after restart()). finish() writes
-// them into the file layer by layer.
+// Writes a stream. Tiles are appended one after the other (again after restart()); finish() writes them to the file
+// layer by layer.
 class StreamWriter {
   public:
-    // In a team the first process alone has files; the others know their sizes.
-    // @param into    the file to write, if not that of the name
+    // With several ranks, only the root has files; the other ranks know their sizes.
+    // @param into    file to write instead of `path`, or null
     // @param depth   file with the depth stream that info.depth describes
     StreamWriter(const std::filesystem::path& path, const StreamHeader& info, core::RawFile* into = nullptr,
                  const core::RawFile* depth = nullptr);
     // Discards all tiles.
     void restart();
-    // @param layers   the ends of the tile's layers; small tiles may have fewer layers than the stream
+    // @param layers   ends of the tile's layers; small tiles may have fewer layers than the stream
     void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
-    // In a team: tells all processes of the tiles that the first one has appended.
+    // Sends the entries of the tiles appended by the root to all ranks.
     void share_entries();
-    // Bytes of the whole file if it were finished now.
+    // Returns the bytes of the file if it were finished now.
     std::uint64_t size() const { return next_ + overhead(entries_.size() / layers_); }
-    // Bytes of a file with that number of tiles (of all parts), without the tiles themselves.
+    // Returns the bytes of a file with this number of tiles (of all parts), without the tiles.
     std::uint64_t overhead(std::size_t tiles) const;
-    // @param filler   bytes by which the file is longer than size(): 0, or min_filler to max_filler
+    // @param filler   bytes added to size(): 0, or min_filler to max_filler
     void finish(std::uint64_t filler = 0);
 
   private:
@@ -92,12 +92,12 @@ class StreamWriter {
 // Reads a stream's header and index, and tiles on demand. Error messages name the file.
 class StreamReader {
   public:
-    enum class Content { light_field, its_depth };
+    enum class Content { light_field, depth };
     explicit StreamReader(const std::filesystem::path& path, Content content = Content::light_field);
     const StreamHeader& info() const { return info_; }
     const Tiling& tiling() const { return *tiling_; }
     const std::vector<LightFieldGrid>& parts() const { return parts_; }
-    // The first layers of a tile, concatenated.
+    // Returns the first layers of a tile, concatenated.
     std::vector<std::uint8_t> read(std::size_t tile, std::size_t layers) const;
     [[noreturn]] void damaged(const std::string& why) const;
 

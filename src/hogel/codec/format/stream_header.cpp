@@ -40,12 +40,12 @@ void take_sides(ByteReader& reader, StreamInfo& info) {
     info.layout = known->first;
     const auto count = reader.take<std::uint32_t>();
     if (count >= all_faces.size()) reader.damaged("its header has an impossible number of faces");
-    std::vector<Face> seen{info.grid.face()};
+    std::vector<Face> known_faces{info.grid.face()};
     for (std::uint32_t i = 0; i < count; ++i) {
         LightFieldGrid& side = info.sides.emplace_back(info.grid);
         std::get<Perspective>(side.view).face = take_face(reader);
-        if (std::ranges::count(seen, side.face()) > 0) reader.damaged("its header names a face twice");
-        seen.push_back(side.face());
+        if (std::ranges::count(known_faces, side.face()) > 0) reader.damaged("its header names a face twice");
+        known_faces.push_back(side.face());
         for (std::size_t* number : {&side.directions_u, &side.directions_v}) *number = reader.take<std::uint64_t>();
         for (double* number :
              {&side.range().half_u, &side.range().half_v, &side.range().center_u, &side.range().center_v})

@@ -9,12 +9,12 @@
 
 namespace hogel::codec::format {
 
-/// A strictly increasing, odd function y(L) of luminance and its inverse. It is piecewise linear between points, the
-/// numbers of binary32 whose lowest 20 bits are 0 (eight an octave), and proportional to L below the first and above
-/// the last point. It uses basic operations of binary32 only, so that all machines agree.
+/// Strictly increasing, odd function y(L) of luminance, and its inverse. It is piecewise linear between points: the
+/// binary32 numbers with 20 low zero bits (eight per octave). Below the first and above the last point it is
+/// proportional to L. It uses only basic operations of binary32, so that all machines agree.
 class ToneCurve {
   public:
-    static constexpr int low_bits = 20;  // lowest bits of a point, which are 0
+    static constexpr int low_bits = 20;  // number of low zero bits of a point
     static constexpr std::size_t max_points = 512;
 
     /// @param first    the highest bits of the first point
@@ -23,15 +23,15 @@ class ToneCurve {
     /// each within 2^±64 of its point.
     ToneCurve(std::uint32_t first, std::vector<float> values);
 
-    /// The luminance of point i.
+    /// Returns the luminance of point i.
     float point(std::size_t i) const { return point_at(first_ + static_cast<std::uint32_t>(i)); }
     std::uint32_t first() const { return first_; }
     const std::vector<float>& values() const { return values_; }
-    /// Decades from the first point to the last, of luminance and of y.
+    /// Returns the decades from the first point to the last, of luminance and of y.
     double decades() const;
     double mapped_decades() const;
 
-    /// y(L)/L, and its limit at 0.
+    /// Returns y(L)/L, and its limit at 0.
     float factor(float luminance) const {
         const float l = std::abs(luminance);
         if (!(l > lowest_)) return below_;
@@ -40,7 +40,7 @@ class ToneCurve {
         const Piece& piece = pieces_[i];
         return (piece.value + (l - piece.point) * piece.slope) / l;
     }
-    /// L(y)/y, and its limit at 0.
+    /// Returns L(y)/y, and its limit at 0.
     float inverse_factor(float mapped) const {
         const float y = std::abs(mapped);
         if (!(y > values_.front())) return inverse_below_;
@@ -71,7 +71,7 @@ class ToneCurve {
     std::vector<std::uint16_t> begin_;  // [highest bits of y]: the first segment that may contain y
 };
 
-/// Histogram of the luminances |L| of a light field, whose bins lie between consecutive points of a ToneCurve.
+/// Histogram of the luminances |L| of a light field, with bins between consecutive points of a ToneCurve.
 class LuminanceHistogram {
   public:
     LuminanceHistogram() : counts_(std::size_t{1} << (31 - ToneCurve::low_bits)) {}

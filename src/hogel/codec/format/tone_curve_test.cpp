@@ -32,7 +32,7 @@ std::vector<LuminanceHistogram> histograms() {
     return all;
 }
 
-// The logarithmic slopes from point to point.
+// Returns the logarithmic slopes from point to point.
 std::vector<double> slopes(const ToneCurve& curve) {
     std::vector<double> result;
     for (std::size_t i = 0; i + 1 < curve.values().size(); ++i)

@@ -18,21 +18,21 @@ const LightFieldGrid& face_of(std::span<const LightFieldGrid> faces, Face face) 
     return *found;
 }
 
-// The weight of a band at its sample k: a cubic from 1 at its beginning to 0 at its end.
+// Returns the weight of a band at its sample k: a cubic from 1 at its beginning to 0 at its end.
 double fade(std::size_t k, std::size_t band) {
     if (k >= band) return 0;
     const double x = (static_cast<double>(k) + 0.5) / static_cast<double>(band);
     return 1 - x * x * (3 - 2 * x);
 }
 
-// The index among n samples that corresponds to index k among m.
+// Returns the index among n samples that corresponds to index k among m.
 std::size_t scaled(std::size_t k, std::size_t m, std::size_t n) { return (2 * k + 1) * n / (2 * m); }
 
-// One side of the front along one axis, with samples counted outwards and inwards from the front's edge.
+// A side of the front along one axis; samples are counted outwards and inwards from the front's edge.
 struct Side {
-    std::size_t begin, end;  // of the front
-    bool before;             // whether it is at smaller indices than the front
-    std::size_t length;      // of the array outside the front
+    std::size_t begin, end;  // range of the front
+    bool before;             // whether the side has smaller indices than the front
+    std::size_t length;      // number of samples outside the front
 
     std::size_t outwards(std::size_t k) const { return before ? begin - 1 - k : end + k; }
     std::size_t inwards(std::size_t k) const { return before ? begin + k : end - 1 - k; }
@@ -85,7 +85,7 @@ class UnfoldedSource final : public LightFieldSource {
         for (const LightField::Source& face : light_field_.faces()) {
             LightFieldTile part(face->grid(), range, false);
             face->read(part);
-            const auto [u, v] = unfolding_.place(face->grid().face());
+            const auto [u, v] = unfolding_.origin(face->grid().face());
             for (std::size_t c = 0; c < part.radiance.extent(0); ++c)
                 for (std::size_t t = 0; t < range.nt; ++t)
                     for (std::size_t s = 0; s < range.ns; ++s)
@@ -128,7 +128,7 @@ Unfolding::Unfolding(std::span<const LightFieldGrid> faces) {
     validate(grid_, ErrorCode::usage, "unfolded hemicube");
 }
 
-Unfolding::Place Unfolding::place(Face face) const {
+Unfolding::Origin Unfolding::origin(Face face) const {
     switch (face) {
         case Face::left:
             return {0, cross_.begin_v};

@@ -10,7 +10,7 @@
 
 namespace hogel::codec::format {
 
-/// A hemicube unfolded into one array of directions ([K] 4.2.3): the sides surround the front and continue its picture;
+/// Hemicube unfolded into one array of directions ([K] 4.2.3): the sides surround the front and continue its picture;
 /// the corners of the array belong to no face.
 class Unfolding {
   public:
@@ -18,16 +18,17 @@ class Unfolding {
     /// the front.
     explicit Unfolding(std::span<const LightFieldGrid> faces);
 
-    /// The whole array, with the front's ΔU and ΔV; its U and V are those of directions on the front only.
+    /// Returns the grid of the array, with the front's ΔU and ΔV; its U and V are valid only for directions on the
+    /// front.
     const LightFieldGrid& grid() const { return grid_; }
     const DirectionCross& cross() const { return cross_; }
-    /// The first row and column of a face in the array.
-    struct Place {
+    /// First row and column of a face in the array.
+    struct Origin {
         std::size_t u, v;
     };
-    Place place(Face face) const;
-    /// Fills the corners of an array [n_V][n_U] whose faces are filled. A band of `band` samples along each edge of a
-    /// corner continues the side by the samples of its neighbour around the cube's edge, and fades, by a cubic, into
+    Origin origin(Face face) const;
+    /// Fills the corners of an array [n_V][n_U] with filled faces. Along each edge of a corner, a band of `band`
+    /// samples continues the side with the samples of its neighbour around the cube's edge. A cubic fades the band into
     /// the mean of the faces' samples in the same quarter of the array.
     void fill_corners(View<float, 2> array) const;
     static constexpr std::size_t band = 8;
@@ -37,10 +38,10 @@ class Unfolding {
     DirectionCross cross_;
 };
 
-/// Σ (f − f')² over the directions that count, without samples that are not finite.
+/// Returns Σ (f − f')² over the directions that count, without samples that are not finite.
 double squared_error(const LightFieldTile& truth, const LightFieldTile& decoded, const DirectionCross& counted);
 
-/// Unfolds the faces of a hemicube when they are read. Throws Error(usage) as Unfolding does.
+/// Returns a source that unfolds the faces of a hemicube on reading. Throws Error(usage) as Unfolding does.
 LightField::Source unfold(const LightField& light_field);
 
 }  // namespace hogel::codec::format

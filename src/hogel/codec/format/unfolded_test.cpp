@@ -11,7 +11,7 @@
 namespace hogel::codec::format {
 namespace {
 
-// A hemicube around hogels that see a smooth sky: the same function of direction on all faces.
+// Returns a hemicube around hogels that see a smooth sky: the same function of direction on all faces.
 std::vector<LightFieldBuffer> smooth_hemicube(std::size_t hogels, std::size_t directions_u, std::size_t directions_v) {
     const LightFieldGrid grid{hogels, hogels, 1e-3, directions_u, directions_v, Perspective{1, 1}, 1};
     std::vector<LightFieldBuffer> faces;
@@ -131,8 +131,8 @@ TEST(Hemicube, has_the_sqnr_asked_for_in_both_layouts) {
         }
 }
 
-// The mean square of the step that the coding error makes across the edges of the front, where neighbouring directions
-// are on different faces.
+// Returns the mean square of the step that the coding error makes across the edges of the front, where neighbouring
+// directions are on different faces.
 double seam(const std::vector<LightFieldBuffer>& faces, const CodingMethod& method, StreamLayout layout) {
     const TestFolder folder;
     CompressionOptions options;
