@@ -82,7 +82,7 @@ void ArithmeticEncoder::raw(std::uint32_t value, int count) {
 }
 
 std::vector<std::uint8_t> ArithmeticEncoder::finish() {
-    // The number with the most trailing zero bytes such that all numbers that differ in these bytes only are in range.
+    // The number with the most trailing zero bytes for which all numbers that differ only in these bytes are in range.
     for (int unused = 3; unused >= 0; --unused) {
         const std::uint64_t mask = (std::uint64_t{1} << (8 * unused)) - 1;
         const std::uint64_t value = (low_ + mask) & ~mask;

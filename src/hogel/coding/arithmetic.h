@@ -12,13 +12,13 @@ namespace hogel::coding {
 // and decoder must use the same models in the same order. Source: Witten, Neal and Cleary, CACM 30 (1987), [K] 4.3's
 // [127]; range coding after Martin 1979.
 
-/// The probability of a bit, adapted at two rates.
+/// Probability of a bit, adapted at two rates.
 class BitModel {
   public:
     BitModel() = default;
     /// @param zero   initial probability of a zero, as a fraction of 2¹⁶; not 0
     explicit BitModel(std::uint16_t zero) : fast_(zero), slow_(zero) {}
-    /// Probability of a zero as a fraction of 2¹⁶; neither 0 nor 2¹⁶.
+    /// Returns the probability of a zero as a fraction of 2¹⁶; neither 0 nor 2¹⁶.
     std::uint32_t zero() const { return (std::uint32_t{fast_} + slow_) / 2; }
     void learn(bool bit) {
         fast_ = static_cast<std::uint16_t>(bit ? fast_ - (fast_ >> 4) : fast_ + ((65536 - fast_) >> 4));
@@ -29,7 +29,7 @@ class BitModel {
     std::uint16_t fast_ = 32768, slow_ = 32768;
 };
 
-/// The frequencies of the symbols 0..count−1 of an alphabet. Cost: O(log count).
+/// Frequencies of the symbols 0..count−1 of an alphabet. Cost: O(log count).
 class SymbolModel {
   public:
     /// @param count   1 to 32768
@@ -37,9 +37,9 @@ class SymbolModel {
     std::size_t count() const { return frequency_.size(); }
     std::uint32_t total() const { return total_; }
     std::uint32_t frequency(std::size_t symbol) const { return frequency_[symbol]; }
-    /// Sum of the frequencies of the symbols before this one.
+    /// Returns the sum of the frequencies of the symbols before this one.
     std::uint32_t before(std::size_t symbol) const;
-    /// The symbol with before(symbol) <= position < before(symbol) + frequency(symbol); position < total().
+    /// Returns the symbol with before(symbol) <= position < before(symbol) + frequency(symbol); position < total().
     std::size_t find(std::uint32_t position) const;
     void learn(std::size_t symbol);
 
@@ -57,11 +57,11 @@ class ArithmeticEncoder {
   public:
     void bit(BitModel& model, bool value);
     void symbol(SymbolModel& model, std::size_t value);
-    /// The low `count` bits of a value, all equally likely; count <= 32.
+    /// Codes the low `count` bits of a value, all equally likely; count <= 32.
     void raw(std::uint32_t value, int count);
-    /// Bytes so far; finish() adds one to five.
+    /// Returns the number of bytes so far; finish() adds one to five.
     std::size_t size() const { return bytes_.size() + pending_; }
-    /// Ends the code with the fewest bytes that decode correctly whatever bytes follow them.
+    /// Ends the code with the minimum number of bytes that decode correctly for any following bytes.
     std::vector<std::uint8_t> finish();
 
   private:
@@ -71,14 +71,14 @@ class ArithmeticEncoder {
     std::vector<std::uint8_t> bytes_;
     std::uint64_t low_ = 0;  // with the carry in bit 32
     std::uint32_t range_ = 0xFFFFFFFF;
-    std::uint8_t held_ = 0;    // the byte that a carry may still change
-    std::size_t pending_ = 0;  // number of 0xFF bytes that follow it
-    bool first_ = true;        // nothing is held yet
+    std::uint8_t held_ = 0;    // byte that a carry may still change
+    std::size_t pending_ = 0;  // number of 0xFF bytes after it
+    bool first_ = true;        // no byte is held yet
 };
 
-/// Decodes the output of an ArithmeticEncoder. As soon as a decision depends on bytes beyond the end, ended() is true;
-/// that decision and all later ones are meaningless but within their alphabets. Thus a prefix of a code gives exactly
-/// the decisions that it determines.
+/// Decodes the output of an ArithmeticEncoder. ended() becomes true when a decision depends on bytes beyond the end;
+/// this decision and all later ones are meaningless but within their alphabets. A prefix of a code yields exactly the
+/// decisions that it determines.
 class ArithmeticDecoder {
   public:
     explicit ArithmeticDecoder(std::span<const std::uint8_t> bytes);
@@ -87,7 +87,7 @@ class ArithmeticDecoder {
     std::uint32_t raw(int count);
     bool even();  ///< raw(1)
     bool ended() const { return ended_; }
-    /// Whether all bytes have been read, as at the end of an undamaged code.
+    /// Returns whether all bytes have been read, as at the end of an undamaged code.
     bool all_read() const { return next_ == bytes_.size(); }
 
   private:
@@ -97,7 +97,7 @@ class ArithmeticDecoder {
     std::span<const std::uint8_t> bytes_;
     std::size_t next_ = 0;
     std::uint32_t range_ = 0xFFFFFFFF, code_ = 0;
-    std::uint32_t unknown_ = 0;  // ones at the bits of code_ that lie beyond the end
+    std::uint32_t unknown_ = 0;  // ones at the bits of code_ beyond the end
     bool ended_ = false;
 };
 

@@ -54,7 +54,7 @@ Bytes encode(const std::vector<Item>& items) {
     return encoder.finish();
 }
 
-// The number of items that decode correctly before the decoder reports the end of the bytes.
+// Returns the number of items that decode correctly before the decoder reports the end of the bytes.
 std::size_t decoded(const std::vector<Item>& items, std::span<const std::uint8_t> bytes, bool* all_read = nullptr) {
     ArithmeticDecoder decoder(bytes);
     CodedModels models;

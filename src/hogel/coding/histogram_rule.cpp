@@ -51,21 +51,21 @@ double MagnitudeHistogram::bits(double step, double c) const {
     return sum;
 }
 
-double MagnitudeHistogram::step(double wanted, double c) const {
+double MagnitudeHistogram::step(double requested, double c) const {
     if (max_ == 0) return 1;
     double coarse = max_, fine = std::ldexp(max_, -max_planes);
     while (coarse > fine * 1.001) {
         const double middle = std::sqrt(coarse * fine);
-        (bits(middle, c) <= wanted ? coarse : fine) = middle;
+        (bits(middle, c) <= requested ? coarse : fine) = middle;
     }
     return coarse;
 }
 
-double MagnitudeHistogram::step_of_planes(double wanted, double c) const {
+double MagnitudeHistogram::step_of_planes(double requested, double c) const {
     if (max_ == 0) return 1;
     double best = max_, least = std::numeric_limits<double>::infinity();
     for (int planes = 1; planes <= max_planes; ++planes) {
-        const double step = std::ldexp(max_, -planes), miss = std::abs(std::log(bits(step, c) / wanted));
+        const double step = std::ldexp(max_, -planes), miss = std::abs(std::log(bits(step, c) / requested));
         if (miss < least) {
             least = miss;
             best = step;

@@ -17,8 +17,8 @@ MagnitudeHistogram histogram_of(const std::vector<float>& values) {
     return histogram;
 }
 
-// The sum of [K] 4.4.2 over p_n = ⌊log2(T_max/|x|)⌋, for the values of fig. 4.17 but the 8, which is a power of two of
-// T_max below it and a level of its step.
+// The sum of [K] 4.4.2 over p_n = ⌊log2(T_max/|x|)⌋, for the values of fig. 4.17 without 8, which is T_max divided by a
+// power of two.
 TEST(HistogramRule, is_the_sum_of_the_thesis) {
     const std::vector<float> figure{64, -42, 27, -14, 26, -30, 2.5, -10, -35, 3, -10, -24, 7, 5};
     for (const double c : {0.0, 1.5, 4.8})
@@ -43,7 +43,7 @@ TEST(HistogramRule, steps_meet_their_bits) {
     const MagnitudeHistogram histogram = histogram_of(spread_values());
     for (const double c : {0.0, 2.0, 5.0})
         for (const double bits : {500.0, 5000.0, 30000.0}) {
-            // The smallest step that keeps to the bits, within a bin.
+            // The smallest step within the number of bits, to one bin.
             EXPECT_LE(histogram.bits(histogram.step(bits, c), c), bits);
             EXPECT_GE(histogram.bits(histogram.step(bits, c) / 1.04, c), bits);
             // Whole bit planes: no power of two of the largest magnitude is nearer.
