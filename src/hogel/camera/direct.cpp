@@ -19,18 +19,17 @@ struct PupilPoint {
     DoubleComplex field;
 };
 
-// Points on rings around the pupil's centre, at the radii of a quadrature by Gauss and Legendre, as far apart on a ring
-// as the rings are, and some more for the smoothness of waves around a ring. The sum over them of a wave whose phase
-// changes by much less than a cycle from one to the next is exact, unlike that over a square grid, in which the disc
-// has a jagged rim.
+// Returns points on rings around the pupil's centre, with radii of Gauss-Legendre quadrature. Points on a ring are as
+// far apart as the rings, with some more for smoothness along a ring. The sum over the points is exact for a wave that
+// changes by much less than a cycle from point to point. A square grid, with a jagged rim of the disc, is not.
 std::vector<PupilPoint> pupil_points(const Camera& camera, std::size_t across) {
     std::vector<PupilPoint> points;
-    const double half = 0.25 * camera.pupil;
-    const math::Quadrature radii = math::gauss_legendre((across + 1) / 2, half);
+    const double half_radius = 0.25 * camera.pupil;
+    const math::Quadrature radii = math::gauss_legendre((across + 1) / 2, half_radius);
     for (std::size_t i = 0; i < radii.points.size(); ++i) {
-        const double radius = half + radii.points[i];
-        const double around = std::numbers::pi * static_cast<double>(across) * radius / (2 * half);
-        const std::size_t count = 16 + static_cast<std::size_t>(std::ceil(around));
+        const double radius = half_radius + radii.points[i];
+        const double spacings_on_ring = std::numbers::pi * static_cast<double>(across) * radius / (2 * half_radius);
+        const std::size_t count = 16 + static_cast<std::size_t>(std::ceil(spacings_on_ring));
         const double step = 2 * std::numbers::pi / static_cast<double>(count);
         for (std::size_t k = 0; k < count; ++k) {
             const double angle = (static_cast<double>(k) + 0.5 * static_cast<double>(i % 2)) * step;
@@ -50,18 +49,18 @@ void sum_directly(const FieldSource& hologram, const Camera& camera, const Direc
     const double k = 2 * std::numbers::pi / grid.wavelength;
     std::vector<PupilPoint> pupil = pupil_points(camera, model.pupil_points);
     const double pupil_area = 0.25 * std::numbers::pi * camera.pupil * camera.pupil;
-    const math::Quadrature within = math::gauss_legendre(subpixels, 0.5);
+    const math::Quadrature subpixel_nodes = math::gauss_legendre(subpixels, 0.5);
 
     Array<std::complex<float>, 2> field({plane.height, plane.width});
     for (std::size_t look = 0; look < hologram.looks(); ++look) {
         hologram.read({0, 0, plane.width, plane.height}, look, field);
-        // Rayleigh and Sommerfeld: every sample of the hologram sends a wave z/(iλr²) e^{ikr} to the pupil.
+        // Rayleigh-Sommerfeld: every sample of the hologram sends a wave z/(iλr²) e^{ikr} to the pupil.
         work::parallel_for(pupil.size(), [&](std::size_t i) {
             DoubleComplex sum = 0;
             for (std::size_t row = 0; row < plane.height; ++row)
                 for (std::size_t column = 0; column < plane.width; ++column) {
-                    const Vec3 from{plane.x(static_cast<double>(column)), plane.y(static_cast<double>(row)), 0};
-                    const double r = length(pupil[i].position - from);
+                    const Vec3 sample{plane.x(static_cast<double>(column)), plane.y(static_cast<double>(row)), 0};
+                    const double r = length(pupil[i].position - sample);
                     sum += DoubleComplex(field(row, column)) * std::polar(camera.eye.z / (r * r), k * r);
                 }
             pupil[i].field = sum * plane.pitch_x * plane.pitch_y / DoubleComplex(0, grid.wavelength);
@@ -71,8 +70,9 @@ void sum_directly(const FieldSource& hologram, const Camera& camera, const Direc
             for (std::size_t column = 0; column < camera.picture.width; ++column)
                 for (std::size_t b = 0; b < subpixels; ++b)
                     for (std::size_t a = 0; a < subpixels; ++a) {
-                        const Vec3 on_hologram{camera.picture.x(static_cast<double>(column) + within.points[a]),
-                                               camera.picture.y(static_cast<double>(row) + within.points[b]), 0};
+                        const Vec3 on_hologram{camera.picture.x(static_cast<double>(column) + subpixel_nodes.points[a]),
+                                               camera.picture.y(static_cast<double>(row) + subpixel_nodes.points[b]),
+                                               0};
                         const Vec3 p =
                             camera.eye + focus_ratio(camera, on_hologram.x, on_hologram.y) * (on_hologram - camera.eye);
                         DoubleComplex film = 0;
@@ -81,7 +81,7 @@ void sum_directly(const FieldSource& hologram, const Camera& camera, const Direc
                         // Radiance of a diffuse surface: |film|² cos θ / (λ² · area of the pupil).
                         const double cosine = camera.eye.z / length(camera.eye - on_hologram);
                         image.pixels(row, column, 0) += static_cast<float>(
-                            within.weights[a] * within.weights[b] * std::norm(film) * cosine /
+                            subpixel_nodes.weights[a] * subpixel_nodes.weights[b] * std::norm(film) * cosine /
                             (grid.wavelength * grid.wavelength * pupil_area) / static_cast<double>(hologram.looks()));
                     }
         });

@@ -7,8 +7,8 @@
 
 namespace hogel::camera {
 
-/// Σ_j e^{2πiy(j−c)/n} over n samples j, with c = (n − 1)/2 their middle: the light of a wave in a window of n samples,
-/// y cycles per window beside its direction.
+/// Returns Σ_j e^{2πiy(j−c)/n} over n samples j with the middle c = (n − 1)/2: the light of a wave in a window of n
+/// samples, y cycles per window off its direction.
 inline double dirichlet(double y, std::size_t samples) {
     const auto n = static_cast<double>(samples);
     const double below = std::sin(std::numbers::pi * y / n);

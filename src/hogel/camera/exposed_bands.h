@@ -12,23 +12,22 @@
 
 namespace hogel::camera {
 
-/// The light of one hologram or several colours of one towards the eyes of cameras: the bands of all eyes of the first
-/// colour, then of the next.
+/// Pupil bands of one or several colours of a hologram, in the order [colour][viewpoint].
 struct ColourBands {
-    std::unique_ptr<PupilBandSource> drawing;
+    std::unique_ptr<PupilBandSource> source;
     std::vector<FieldGrid> colours;
-    std::vector<SharedViewpoint> eyes;
-    Rectangle shown;  ///< what the films show
+    std::vector<SharedViewpoint> viewpoints;
+    Rectangle shown;  ///< area of the hologram plane that the films show
     std::size_t looks = 1, looks_at_once = 1;
     bool preview = false;
 };
 
-/// The eyes that see through the widest pupils of their cameras.
-std::vector<Viewpoint> viewpoints_of(std::span<const SharedViewpoint> eyes, std::span<const Camera> cameras,
+/// Returns the viewpoints with the widest pupils of their cameras.
+std::vector<Viewpoint> viewpoints_of(std::span<const SharedViewpoint> viewpoints, std::span<const Camera> cameras,
                                      bool preview);
 
-/// Draws all looks, exposes a film of each colour and camera to them, and adds it to the camera's picture of that
-/// colour. In a team, the first process does the latter.
+/// Synthesises all looks, exposes a film of each colour and camera to them, and adds each film to the picture of its
+/// camera and colour. With MPI, only the root exposes films and changes pictures.
 /// @param pictures  [colour][camera]
 void expose(const ColourBands& bands, std::span<const Camera> cameras, std::span<const std::span<Image>> pictures,
             const Progress& progress);

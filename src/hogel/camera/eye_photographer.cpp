@@ -19,11 +19,11 @@ using namespace camera;
 
 namespace {
 
-// The light of one colour in the pupil of an eye, look by look, as far as it is known.
-struct SeenColour {
-    std::unique_ptr<PupilBandSource> drawing;
+// Film and cached pupil waves of one colour for a viewpoint.
+struct ColourFilm {
+    std::unique_ptr<PupilBandSource> source;
     Grid hologram;
-    Rectangle active, shown;  // where its light arrives, and of that what the film shows
+    Rectangle active, shown;  // area that receives light, and the part of it on the film
     std::optional<film::Film> film;
     std::vector<film::PupilWave> waves;  // [look]
 
@@ -33,43 +33,44 @@ struct SeenColour {
                area.top <= shown.top;
     }
 
-    // The wave of the next look, in each process of a team.
-    film::PupilWave draw(std::size_t look) const {
-        const work::JobScope alone;
-        auto bands = drawing->draw(look, 1, {});
+    // Returns the pupil wave of a look, on each MPI rank.
+    film::PupilWave synthesize(std::size_t look) const {
+        const work::JobScope scope;
+        auto bands = source->synthesize(look, 1, {});
         return film->pupil_wave(bands.front().front());
     }
 };
 
-// An eye, the widest pupil and the widest blur for which its light is known.
+// A viewpoint with the widest pupil and blur that its pupil waves serve.
 struct ExposedViewpoint {
     Vec3 eye;
     double pupil = 0, blur = 0;
-    std::vector<SeenColour> colours;
+    std::vector<ColourFilm> colours;
 
-    // A much narrower pupil spreads light farther than films for the wider one have room.
+    // A much narrower pupil spreads light beyond the room of films for the wider one.
     bool serves(const Camera& camera) const {
         return !colours.empty() && camera.eye == eye && camera.pupil <= pupil && camera.pupil > 0.8 * pupil &&
                defocus_blur(camera) <= blur &&
-               std::ranges::all_of(colours, [&](const SeenColour& colour) { return colour.shows(camera); });
+               std::ranges::all_of(colours, [&](const ColourFilm& colour) { return colour.shows(camera); });
     }
 };
 
 }  // namespace
 
 struct EyePhotographer::State {
-    // What models and eyes share, and what was kept of it: the waves of the first look, [colour].
+    // Data that all models and viewpoints share, with the waves of the first look, [colour].
     struct Shared {
         Fields holograms;
-        std::vector<std::optional<hogel_spectra::KeptWaves>> kept_waves;
+        std::vector<std::optional<hogel_spectra::WaveCache>> wave_cache;
     };
     std::shared_ptr<Shared> shared;
     CameraModel model;
-    ExposedViewpoint seen;
+    ExposedViewpoint current;
 
-    State(std::shared_ptr<Shared> of, const CameraModel& by) : shared(std::move(of)), model(by) {
+    State(std::shared_ptr<Shared> shared_state, const CameraModel& camera_model)
+        : shared(std::move(shared_state)), model(camera_model) {
         const bool is_known =
-            band() != nullptr ? !band()->vertical_diffuser : std::holds_alternative<SpeckleFreeCamera>(by);
+            band() != nullptr ? !band()->vertical_diffuser : std::holds_alternative<SpeckleFreeCamera>(camera_model);
         if (!is_known)
             throw Error(ErrorCode::usage,
                         "photographs from one eye after the other are those of the band camera without a diffuser, or "
@@ -77,7 +78,7 @@ struct EyePhotographer::State {
     }
 
     const Fields& holograms() const { return shared->holograms; }
-    // Null: the model is without speckle.
+    // Returns null if the model is without speckle.
     const BandCamera* band() const { return std::get_if<BandCamera>(&model); }
     std::size_t memory() const {
         return band() != nullptr ? band()->memory : std::get<SpeckleFreeCamera>(model).memory;
@@ -85,55 +86,55 @@ struct EyePhotographer::State {
 
     std::size_t looks() const { return holograms().front()->looks(); }
 
-    // Keeps the waves of the first look of a colour, if its amplitudes are kept and they take at most `memory` bytes;
-    // then this look of another eye takes less time. Returns the bytes that are kept.
+    // Caches the waves of the first look of a colour if its amplitudes are kept and the waves take at most `memory`
+    // bytes. This look of another viewpoint then takes less time. Returns the bytes of the cache.
     std::size_t keep_waves(std::size_t colour, std::size_t memory) {
         const stereogram::Hogels hogels = holograms()[colour]->stereogram()->hogels();
         if (hogels.waves == nullptr || !hogels.waves->has_lanes() || hogels.kept.size() == 0) return 0;
-        const std::size_t bytes = hogel_spectra::KeptWaves::bytes(hogels);
+        const std::size_t bytes = hogel_spectra::WaveCache::bytes(hogels);
         if (bytes > memory) return 0;
-        shared->kept_waves[colour].emplace(hogels, *hogels.waves, hogels.kept);
+        shared->wave_cache[colour].emplace(hogels, *hogels.waves, hogels.kept);
         return bytes;
     }
 
-    // Begins with an eye whose light is not known. Focuses up to half as much out of focus again need no new light.
-    void look_from(const Camera& camera) {
-        seen = {camera.eye, camera.pupil, 1.5 * defocus_blur(camera), {}};
-        std::vector<SeenColour> colours;
+    // Begins with a new viewpoint. Focuses with up to 1.5 times the blur need no new light.
+    void set_viewpoint(const Camera& camera) {
+        current = {camera.eye, camera.pupil, 1.5 * defocus_blur(camera), {}};
+        std::vector<ColourFilm> colours;
         for (std::size_t c = 0; c < holograms().size(); ++c) {
             const auto& hologram = holograms()[c];
             const Grid& plane = hologram->grid().plane;
             const Viewpoint eye{camera.eye, camera.pupil, band()->preview};
-            const Rectangle active = illuminated_area(hologram->grid(), camera.eye, seen.pupil, seen.blur),
+            const Rectangle active = illuminated_area(hologram->grid(), camera.eye, current.pupil, current.blur),
                             shown = film_area(plane, Rectangle(camera.picture), active);
-            SeenColour colour{{}, plane, active, shown, {}, {}};
-            colour.drawing =
-                make_band_source(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1}, band()->source,
-                                 shared->kept_waves[c] ? &*shared->kept_waves[c] : nullptr);
-            colour.film.emplace(colour.drawing->band(0), hologram->grid(), shown, seen.pupil, seen.blur,
+            ColourFilm colour{{}, plane, active, shown, {}, {}};
+            colour.source = make_band_source(*hologram, {0, 0, plane.width, plane.height}, *hologram, {&eye, 1},
+                                             band()->source, shared->wave_cache[c] ? &*shared->wave_cache[c] : nullptr);
+            colour.film.emplace(colour.source->band(0), hologram->grid(), shown, current.pupil, current.blur,
                                 film::film_samples(band()->preview));
             colours.push_back(std::move(colour));
         }
-        seen.colours = std::move(colours);
+        current.colours = std::move(colours);
     }
 
-    // The bytes of the waves that may be kept.
+    // Whether another pupil wave may be cached.
     bool may_keep(const film::PupilWave& wave) const {
         double bytes = 0;
-        for (const SeenColour& colour : seen.colours)
-            for (const auto& kept : colour.waves)
-                bytes += static_cast<double>(sizeof(math::PackedComplex) * kept.size());
+        for (const ColourFilm& colour : current.colours)
+            for (const auto& cached : colour.waves)
+                bytes += static_cast<double>(sizeof(math::PackedComplex) * cached.size());
         return bytes + static_cast<double>(sizeof(math::PackedComplex) * wave.size()) <=
                0.5 * static_cast<double>(band()->memory);
     }
 
     // Adds a look to a colour's intensities.
     void expose(std::size_t colour, std::size_t look, const Camera& camera, View<float, 2> intensity) {
-        SeenColour& own = seen.colours[colour];
-        if (look < own.waves.size()) return own.film->expose(std::span(own.waves).subspan(look, 1), camera, intensity);
-        film::PupilWave wave = own.draw(look);
-        own.film->expose({&wave, 1}, camera, intensity);
-        if (look == own.waves.size() && may_keep(wave)) own.waves.push_back(std::move(wave));
+        ColourFilm& colour_film = current.colours[colour];
+        if (look < colour_film.waves.size())
+            return colour_film.film->expose(std::span(colour_film.waves).subspan(look, 1), camera, intensity);
+        film::PupilWave wave = colour_film.synthesize(look);
+        colour_film.film->expose({&wave, 1}, camera, intensity);
+        if (look == colour_film.waves.size() && may_keep(wave)) colour_film.waves.push_back(std::move(wave));
     }
 
     Image blank(const Camera& camera) const {
@@ -142,19 +143,19 @@ struct EyePhotographer::State {
         return picture;
     }
 
-    static void put(const Image& one, std::size_t colour, Image& picture) {
+    static void set_channel(const Image& colour_picture, std::size_t colour, Image& picture) {
         const std::size_t colours = picture.channels();
-        for (std::size_t i = 0; i < one.pixels.size(); ++i)
-            picture.pixels.data()[i * colours + colour] = one.pixels.data()[i];
+        for (std::size_t i = 0; i < colour_picture.pixels.size(); ++i)
+            picture.pixels.data()[i * colours + colour] = colour_picture.pixels.data()[i];
     }
 
     Image develop(const std::vector<Array<float, 2>>& intensities, const Camera& camera, std::size_t looks) const {
         Image picture = blank(camera);
         for (std::size_t c = 0; c < holograms().size(); ++c) {
-            Image one(camera.picture.width, camera.picture.height, 1);
-            seen.colours[c].film->develop(intensities[c], camera, seen.colours[c].active,
-                                          1 / static_cast<double>(looks), one);
-            put(one, c, picture);
+            Image colour_picture(camera.picture.width, camera.picture.height, 1);
+            current.colours[c].film->develop(intensities[c], camera, current.colours[c].active,
+                                             1 / static_cast<double>(looks), colour_picture);
+            set_channel(colour_picture, c, picture);
         }
         return picture;
     }
@@ -168,14 +169,15 @@ EyePhotographer::EyePhotographer(Fields holograms, const CameraModel& model, con
     const std::size_t colours = holograms.size();
     state_ = std::make_unique<State>(
         std::make_shared<State::Shared>(
-            State::Shared{std::move(holograms), std::vector<std::optional<hogel_spectra::KeptWaves>>(colours)}),
+            State::Shared{std::move(holograms), std::vector<std::optional<hogel_spectra::WaveCache>>(colours)}),
         model);
-    // Amplitudes of all colours first, which save more than waves.
-    std::size_t left = state_->memory() / 2;
+    // Amplitudes of all colours come first, because they save more time than waves.
+    std::size_t memory_left = state_->memory() / 2;
     const std::size_t steps = (state_->band() != nullptr ? 2 : 1) * colours;
     for (std::size_t step = 0; step < steps; ++step) {
         if (const stereogram::Stereogram* const source = state_->holograms()[step % colours]->stereogram())
-            left -= step < colours ? source->keep_amplitudes(left) : state_->keep_waves(step % colours, left);
+            memory_left -=
+                step < colours ? source->keep_amplitudes(memory_left) : state_->keep_waves(step % colours, memory_left);
         progress.report(static_cast<double>(step + 1) / static_cast<double>(steps));
     }
 }
@@ -194,17 +196,17 @@ Image EyePhotographer::photograph(const Camera& camera, const Shown& shown, cons
     if (state.band() == nullptr) {
         Image picture = state.blank(camera);
         for (std::size_t c = 0; c < colours; ++c) {
-            const std::vector<Image> one =
+            const std::vector<Image> colour_picture =
                 hogel::photograph(*state.holograms()[c], {&camera, 1}, state.model, progress.part(c, colours));
-            State::put(one.front(), c, picture);
+            State::set_channel(colour_picture.front(), c, picture);
         }
         if (shown) shown(picture, 0);
         return picture;
     }
     for (const auto& hologram : state.holograms()) require_photographs(hologram->grid(), {&camera, 1}, state.model);
-    if (!state.seen.serves(camera)) state.look_from(camera);
+    if (!state.current.serves(camera)) state.set_viewpoint(camera);
     std::vector<Array<float, 2>> intensities;
-    for (const SeenColour& colour : state.seen.colours) intensities.push_back(colour.film->unexposed());
+    for (const ColourFilm& colour : state.current.colours) intensities.push_back(colour.film->unexposed());
     const std::size_t looks = state.looks();
     Image picture;
     for (std::size_t look = 0; look < looks; ++look) {

@@ -16,8 +16,8 @@
 namespace hogel::camera {
 namespace {
 
-// The rows of samples of which only the middle one of a line shines, as thin as the widest pupil needs them: an odd
-// number, so that there is a middle.
+// Returns the number of rows per line, of which only the middle one is nonzero, as thin as the widest pupil requires.
+// It is odd, so that there is a middle row.
 std::size_t rows_in_line(const FieldGrid& hologram, std::span<const Camera> cameras) {
     constexpr double rows_in_cell = 12;  // the narrow band is decimated to 4
     double cell = hologram.plane.pitch_y;
@@ -26,7 +26,7 @@ std::size_t rows_in_line(const FieldGrid& hologram, std::span<const Camera> came
     return 2 * static_cast<std::size_t>(std::ceil(std::max(0.0, 0.5 * (rows - 1)))) + 1;
 }
 
-// With a dark line above and below the hologram, so that what diffraction spreads beyond it is seen there.
+// Returns the grid of thin rows, with an empty line above and below the hologram to show the diffraction beyond it.
 FieldGrid thin_rows(const FieldGrid& hologram, std::size_t rows) {
     FieldGrid thin = hologram;
     thin.plane.height = (thin.plane.height + 2) * rows;
@@ -34,9 +34,9 @@ FieldGrid thin_rows(const FieldGrid& hologram, std::size_t rows) {
     return thin;
 }
 
-// A hologram's lines, each as one thin row in its middle; other rows are dark. Each look shows the lines `first`,
-// `first` + `every`, … of a look of the hologram, so that a photograph of all looks is the mean over `every` sets of
-// lines: what the sets share, the lens and the development of the film, is done once.
+// Lines of a hologram, each as one thin row in its middle; other rows are zero. Each look shows the lines `first`,
+// `first` + `every`, … of a look of the hologram. So one photograph of all looks is the mean over `every` sets of
+// lines, which share the lens and the development of the film.
 class ThinLines final : public FieldSource {
   public:
     ThinLines(const FieldSource& hologram, std::size_t rows, std::size_t every)
@@ -61,7 +61,7 @@ class ThinLines final : public FieldSource {
     }
 
   private:
-    // Lines are counted from the dark one above the hologram.
+    // Lines are counted from the empty one above the hologram.
     bool shines(std::size_t line, std::size_t row, std::size_t first) const {
         return row == rows_ / 2 && line >= 1 && line <= hologram_.grid().plane.height && line - 1 >= first &&
                (line - 1 - first) % every_ == 0;
@@ -72,8 +72,8 @@ class ThinLines final : public FieldSource {
     FieldGrid grid_;
 };
 
-// The distance, in lines, from which on the light of two lines does not overlap.
-std::size_t lines_between(const FieldGrid& hologram, std::span<const Camera> cameras, double apart) {
+// Returns the distance, in lines, at which the light of two lines no longer overlaps.
+std::size_t lines_between(const FieldGrid& hologram, std::span<const Camera> cameras, double separation) {
     const Grid& plane = hologram.plane;
     double distance = 0;
     for (const Camera& camera : cameras) {
@@ -85,14 +85,14 @@ std::size_t lines_between(const FieldGrid& hologram, std::span<const Camera> cam
         // A step of the sines is r/cos² θ wide on the plane.
         const double cosine = camera.eye.z / farthest;
         distance = std::max(distance, farthest / (cosine * cosine) *
-                                          (apart * hologram.wavelength / camera.pupil + defocus_blur(camera)));
+                                          (separation * hologram.wavelength / camera.pupil + defocus_blur(camera)));
     }
     const double lines = std::ceil(distance / plane.pitch_y);
     return lines < static_cast<double>(plane.height) ? static_cast<std::size_t>(std::max(1.0, lines)) : plane.height;
 }
 
-// A picture of thin lines in rows so fine that they can be spread to the height of the lines: `share` of them to a row
-// of the camera's picture, and `beside` above and below for light that is spread into the picture.
+// A picture of thin lines in rows fine enough to be spread to the height of the lines: `share` rows per row of the
+// camera's picture, and `beside` rows above and below for light that spreads into the picture.
 struct FineRows {
     std::size_t share = 1, beside = 0;
     Camera camera;
@@ -107,26 +107,27 @@ struct FineRows {
         picture.height = share * picture.height + 2 * beside;
     }
 
-    // ∫ of the overlap of a pixel `pixel` high and a line `line` high from far below to a distance y of their middles,
-    // divided by pixel · line: 0 to 1.
+    // Returns the integral of the overlap of a pixel of height `pixel` and a line of height `line` over the distance of
+    // their middles, from −∞ to y, divided by pixel · line: 0 to 1.
     static double overlap_up_to(double y, double pixel, double line) {
         const double flat = 0.5 * std::abs(pixel - line), end = 0.5 * (pixel + line), top = std::min(pixel, line);
-        const auto below = [&](double at) {  // for at <= 0
-            if (at <= -end) return 0.0;
-            if (at <= -flat) return 0.5 * (at + end) * (at + end);
-            return 0.5 * top * top + top * (at + flat);
+        const auto integral = [&](double y_value) {  // for y_value <= 0
+            if (y_value <= -end) return 0.0;
+            if (y_value <= -flat) return 0.5 * (y_value + end) * (y_value + end);
+            return 0.5 * top * top + top * (y_value + flat);
         };
         const double area = pixel * line;
-        return y <= 0 ? below(y) / area : 1 - below(-y) / area;
+        return y <= 0 ? integral(y) / area : 1 - integral(-y) / area;
     }
 
-    // Adds a fine picture of thin lines to the camera's, as one of lines of this height, `factor` times as bright.
+    // Spreads a fine picture of thin lines to lines of this height, and adds it to the camera's picture, `factor` times
+    // as bright.
     void spread(const Image& fine, double line_height, double factor, Image& picture) const {
         const double row = camera.picture.pitch_y, pixel = row * static_cast<double>(share);
         std::vector<float> weights(share + 2 * beside);
         for (std::size_t i = 0; i < weights.size(); ++i) {
             const double low = (static_cast<double>(i) - 0.5 * static_cast<double>(weights.size())) * row;
-            // Rows finer than a pixel: `share` of them are one.
+            // `share` fine rows form a pixel.
             weights[i] = static_cast<float>(
                 factor * (overlap_up_to(low + row, pixel, line_height) - overlap_up_to(low, pixel, line_height)));
         }
@@ -149,17 +150,18 @@ void require_lines(const BandCamera& model) {
                     "behind a diffuser the light of samples is photographed, not that of hogels");
 }
 
-// The films of one set of lines.
+// Returns the processor seconds for the films of one set of lines.
 double seconds_of_films(const FieldGrid& rows, std::span<const Camera> cameras) {
     double seconds = 0;
-    for (const SharedViewpoint& eye : group_by_viewpoint(cameras)) {
-        const Vec3& position = cameras[eye.members.front()].eye;
-        const narrow_band::NarrowBand band(rows, position, eye.pupil);
-        const Rectangle active = illuminated_area(rows, position, eye.pupil, eye.blur);
-        const film::FilmSize film(band, rows, film_area(rows.plane, eye.pictures, active), eye.pupil, eye.blur);
-        seconds +=
-            static_cast<double>(film.sines.size_x * film.sines.size_y) * core::rates::sine_of_lines +
-            static_cast<double>(eye.members.size() * film.x.size * film.y.size) * core::rates::film_sample_of_lines;
+    for (const SharedViewpoint& viewpoint : group_by_viewpoint(cameras)) {
+        const Vec3& position = cameras[viewpoint.members.front()].eye;
+        const narrow_band::NarrowBand band(rows, position, viewpoint.pupil);
+        const Rectangle active = illuminated_area(rows, position, viewpoint.pupil, viewpoint.blur);
+        const film::FilmSize film(band, rows, film_area(rows.plane, viewpoint.pictures, active), viewpoint.pupil,
+                                  viewpoint.blur);
+        seconds += static_cast<double>(film.sines.size_x * film.sines.size_y) * core::rates::sine_of_lines +
+                   static_cast<double>(viewpoint.members.size() * film.x.size * film.y.size) *
+                       core::rates::film_sample_of_lines;
     }
     return seconds;
 }
@@ -173,12 +175,12 @@ void require_photographs_of_lines(const FieldGrid& hologram, std::span<const Cam
 }
 
 void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
-                      std::span<Image> pictures, const Progress& progress, double apart) {
+                      std::span<Image> pictures, const Progress& progress, double separation) {
     require_photographs_of_lines(hologram.grid(), cameras, model);
     image::load_film(cameras, 1, hologram.provenance(), pictures);
     const double line_height = hologram.grid().plane.pitch_y;
     const std::size_t rows = rows_in_line(hologram.grid(), cameras);
-    const std::size_t every = lines_between(hologram.grid(), cameras, apart);
+    const std::size_t every = lines_between(hologram.grid(), cameras, separation);
     std::vector<FineRows> fine;
     std::vector<Camera> fine_cameras;
     for (const Camera& camera : cameras) {
@@ -187,8 +189,8 @@ void photograph_lines(const FieldSource& hologram, std::span<const Camera> camer
     }
     std::vector<Image> fine_pictures(cameras.size());
     photograph_into(ThinLines(hologram, rows, every), fine_cameras, without_diffuser(model), fine_pictures, progress);
-    // A thin row stands for the whole line, whose amplitudes add up to as many times its own; and the picture is a mean
-    // over the sets of lines, not their sum.
+    // A thin row stands for a whole line, with `rows` times its amplitude. The picture is a mean over the sets of lines
+    // instead of their sum.
     const double factor = static_cast<double>(rows) * static_cast<double>(rows) * static_cast<double>(every);
     for (std::size_t i = 0; i < cameras.size(); ++i) fine[i].spread(fine_pictures[i], line_height, factor, pictures[i]);
 }

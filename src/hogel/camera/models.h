@@ -7,7 +7,7 @@
 
 namespace hogel::camera {
 
-/// photograph_into() by each model. Pictures are changed only after what photograph() throws before it begins.
+/// Implements photograph_into() for one model each. Pictures change only after the checks that precede a photograph.
 void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
                    std::span<Image> pictures, const Progress& progress);
 void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,
@@ -17,10 +17,10 @@ void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras,
 void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const DirectCamera& model,
                    std::span<Image> pictures, const Progress& progress);
 
-/// The band camera of whose photographs those of this model have the plan: itself, or one with the defaults.
+/// Returns the band camera that plan_photographs() assumes: the model itself if it is one, otherwise a default one.
 BandCamera planned_as(const CameraModel& model);
 
-/// Throws what photograph() throws for a PlaneWaveCamera before it begins.
+/// Throws the errors that photograph() throws for a PlaneWaveCamera before it begins.
 void require_by_plane_waves(const FieldGrid& hologram, std::span<const Camera> cameras, const PlaneWaveCamera& model);
 
 }  // namespace hogel::camera

@@ -15,19 +15,18 @@
 
 namespace hogel::camera {
 
-/// The narrow band of an eye, packed: many looks to several eyes are most of the memory of a photograph, which the
-/// system clears before it is used, and what that rounds away is no more than 1/2047 of a number. In squares of
-/// 16 x 16 numbers, so that a part of a hologram lights few pages of memory, and so that sixteen rows are read one
-/// after the other.
+/// A pupil band in packed numbers, which round by at most 1/2047 of a value. Bands of many looks and viewpoints take
+/// most of the memory of a photograph, and the system clears memory before its first use. The numbers form squares of
+/// 16 × 16: a part of a hologram then touches few pages, and sixteen rows are read sequentially.
 class PackedBand {
   public:
     /// Numbers along a side of a square.
     static constexpr std::size_t side = 16;
-    /// From one square of a row of them to the next, in numbers.
+    /// Numbers in a square, the stride between squares of a row.
     static constexpr std::size_t square = side * side;
 
     PackedBand() = default;
-    /// A dark band.
+    /// Creates a band of zeros.
     PackedBand(std::size_t height, std::size_t width) : PackedBand(std::move(dark(1, height, width).front())) {}
     explicit PackedBand(View<const std::complex<float>, 2> band);
     PackedBand(const PackedBand&) = delete;
@@ -36,8 +35,9 @@ class PackedBand {
     PackedBand& operator=(PackedBand&&) = default;
     ~PackedBand() = default;
 
-    /// Bands of one size in one block of memory, which is freed with the last of them: it has huge pages, which the
-    /// system clears in a fraction of the time that small ones take. They are cleared on all threads.
+    /// Returns bands of zeros of the same size in one block of memory, cleared on all threads. The block has huge
+    /// pages, which the system clears in a fraction of the time of small ones. The last band that is destroyed frees
+    /// it.
     static std::vector<PackedBand> dark(std::size_t count, std::size_t height, std::size_t width);
 
     static double bytes(const Grid& plane) {
@@ -47,11 +47,11 @@ class PackedBand {
     std::size_t height() const { return height_; }
     std::size_t width() const { return width_; }
 
-    /// A number; those of the same row and square follow.
+    /// Returns the address of a number; the rest of its row in the same square follows.
     math::PackedComplex* at(std::size_t row, std::size_t column) { return squares_ + offset(row, column); }
     const math::PackedComplex* at(std::size_t row, std::size_t column) const { return squares_ + offset(row, column); }
 
-    /// Whether a row has a number that is not zero.
+    /// Whether a row has a nonzero number.
     bool is_active(std::size_t row) const;
 
     friend bool operator==(const PackedBand& a, const PackedBand& b) {
@@ -59,19 +59,19 @@ class PackedBand {
     }
 
   private:
-    static constexpr std::size_t squares_of(std::size_t numbers) { return (numbers + side - 1) / side; }
-    // The numbers of a band of this size.
-    static constexpr std::size_t size(std::size_t height, std::size_t width) {
-        return squares_of(height) * squares_of(width) * square;
+    static constexpr std::size_t count_squares(std::size_t numbers) { return (numbers + side - 1) / side; }
+    // Numbers in the squares of a band of this size.
+    static constexpr std::size_t padded_size(std::size_t height, std::size_t width) {
+        return count_squares(height) * count_squares(width) * square;
     }
-    std::span<const math::PackedComplex> numbers() const { return {squares_, size(height_, width_)}; }
+    std::span<const math::PackedComplex> numbers() const { return {squares_, padded_size(height_, width_)}; }
     std::size_t offset(std::size_t row, std::size_t column) const {
-        return (row / side * squares_of(width_) + column / side) * square + row % side * side + column % side;
+        return (row / side * count_squares(width_) + column / side) * square + row % side * side + column % side;
     }
 
     std::size_t height_ = 0, width_ = 0;
-    std::shared_ptr<math::PackedComplex> memory_;  // of all bands that were made with it
-    math::PackedComplex* squares_ = nullptr;       // [row / 16][column / 16][row mod 16][column mod 16]
+    std::shared_ptr<math::PackedComplex> storage_;  // shared by all bands of one dark()
+    math::PackedComplex* squares_ = nullptr;        // [row / 16][column / 16][row mod 16][column mod 16]
 };
 
 }  // namespace hogel::camera

@@ -27,7 +27,7 @@ using namespace optics;
 
 namespace {
 
-// A part of a field, as a source.
+// A part of a field as a source.
 class Window final : public FieldSource {
   public:
     Window(const FieldSource& whole, const Region& region)
@@ -35,8 +35,8 @@ class Window final : public FieldSource {
     const FieldGrid& grid() const override { return grid_; }
     std::size_t looks() const override { return whole_.looks(); }
     std::size_t alignment() const override {
-        const std::size_t whole = whole_.alignment();
-        return region_.x0 % whole == 0 && region_.y0 % whole == 0 ? whole : 1;
+        const std::size_t step = whole_.alignment();
+        return region_.x0 % step == 0 && region_.y0 % step == 0 ? step : 1;
     }
     const Provenance& provenance() const override { return whole_.provenance(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
@@ -60,17 +60,17 @@ speckle_free::WavePowers powers_of(const FieldSource& hologram) {
     return speckle_free::WavePowers(hogels);
 }
 
-// The memory of the bands that are drawn, of that of narrow bands, which is planned.
-double share_of_bands(const FieldSource& window, const PupilBandSource& drawing, std::span<const Viewpoint> eyes) {
-    double drawn = 0, planned = 0;
-    for (std::size_t e = 0; e < eyes.size(); ++e) {
-        drawn += drawing.bytes_per_look(e);
-        planned += narrow_band_bytes(window.grid(), eyes[e].position, eyes[e].pupil);
+// Returns the ratio of the bytes of a source's bands to those of narrow bands, which the plan assumes.
+double share_of_bands(const FieldSource& window, const PupilBandSource& source, std::span<const Viewpoint> viewpoints) {
+    double actual = 0, planned = 0;
+    for (std::size_t i = 0; i < viewpoints.size(); ++i) {
+        actual += source.bytes_per_look(i);
+        planned += narrow_band_bytes(window.grid(), viewpoints[i].position, viewpoints[i].pupil);
     }
-    return drawn / planned;
+    return actual / planned;
 }
 
-// The region, extended to where the source's hogels begin, so that none is made for two reads.
+// Returns the region extended to whole hogels of the source, so that no hogel is computed for two reads.
 Region whole_hogels(const Region& region, const FieldSource& source) {
     const std::size_t side = source.alignment();
     const Grid& plane = source.grid().plane;
@@ -81,22 +81,22 @@ Region whole_hogels(const Region& region, const FieldSource& source) {
     return {x0, y0, end(region.x0 + region.width, plane.width) - x0, end(region.y0 + region.height, plane.height) - y0};
 }
 
-// One pass of cameras over one window: adds the window's light to their pictures.
+// Adds the light of one window to the pictures of the cameras of one pass.
 void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
-                       const std::vector<SharedViewpoint>& eyes, const BandCamera& model, const PhotographPlan& plan,
-                       std::span<Image> images, const Progress& progress) {
+                       const std::vector<SharedViewpoint>& viewpoints, const BandCamera& model,
+                       const PhotographPlan& plan, std::span<Image> images, const Progress& progress) {
     const Region region = whole_hogels(part.region, whole);
     const Window window(whole, region);
-    const std::vector<Viewpoint> looking = viewpoints_of(eyes, cameras, model.preview);
-    ColourBands bands{make_band_source(whole, region, window, looking, model.source),
+    const std::vector<Viewpoint> lenses = viewpoints_of(viewpoints, cameras, model.preview);
+    ColourBands bands{make_band_source(whole, region, window, lenses, model.source),
                       {window.grid()},
-                      eyes,
+                      viewpoints,
                       part.shown,
                       window.looks(),
                       1,
                       model.preview};
     bands.looks_at_once = plan.looks_at_once(static_cast<double>(model.memory), bands.looks,
-                                             share_of_bands(window, *bands.drawing, looking));
+                                             share_of_bands(window, *bands.source, lenses));
     expose(bands, cameras, {&images, 1}, progress);
 }
 
@@ -178,7 +178,7 @@ void photograph_into(const FieldSource& hologram, std::span<const Camera> camera
     const core::StopScope scope(progress);
     image::require_a_picture_for_each(cameras, pictures);
     for (const Camera& camera : cameras) validate(camera);
-    std::visit([&](const auto& own) { photograph_by(hologram, cameras, own, pictures, progress); }, model);
+    std::visit([&](const auto& concrete) { photograph_by(hologram, cameras, concrete, pictures, progress); }, model);
 }
 
 void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,

@@ -18,43 +18,44 @@
 namespace hogel::camera {
 namespace {
 
-// A window extends this number of resolution cells beyond the part that it shows. The image of a point falls off
-// slowly: 0.2/m of its light is beyond m cells.
+// Resolution cells by which a window extends beyond the part that it shows. The image of a point falls off slowly:
+// 0.2/m of its light is beyond m cells.
 constexpr double margin_cells = 256;
 
-// The numbers of windows along the longer side of the hologram that are tried.
+// Numbers of windows to try along the longer side of the hologram.
 constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 
-// The metres on the hologram that a sine has at most.
-double metres_a_sine(const FieldGrid& hologram, const Vec3& eye) {
+// Returns the maximum of metres on the hologram per unit of the sine.
+double metres_per_sine(const FieldGrid& hologram, const Vec3& viewpoint) {
     const Grid& plane = hologram.plane;
-    const ViewGeometry geometry(eye, hologram.wavelength);
+    const ViewGeometry geometry(viewpoint, hologram.wavelength);
     double max_distance = 0;
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
         for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2})
             max_distance = std::max(max_distance, geometry.distance(x, y));
     // A step of the sines is r/cos² θ wide on the plane.
-    const double cosine = eye.z / max_distance;
+    const double cosine = viewpoint.z / max_distance;
     return max_distance / (cosine * cosine);
 }
 
-// The margin, metres, that a film needs around the part that a window shows: how far light travels from its point.
-double margin(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur) {
-    return metres_a_sine(hologram, eye) * (margin_cells * hologram.wavelength / pupil + 0.5 * blur);
+// Returns the margin, metres, of a film around the part that a window shows: the distance that light travels from its
+// point.
+double margin(const FieldGrid& hologram, const Vec3& viewpoint, double pupil, double blur) {
+    return metres_per_sine(hologram, viewpoint) * (margin_cells * hologram.wavelength / pupil + 0.5 * blur);
 }
 
 std::vector<PhotographPlan::Window> windows(const Grid& plane, std::size_t count, double margin) {
     const std::size_t side = (std::max(plane.width, plane.height) + count - 1) / count;
-    const auto around = static_cast<std::size_t>(std::ceil(margin / std::min(plane.pitch_x, plane.pitch_y)));
+    const auto margin_samples = static_cast<std::size_t>(std::ceil(margin / std::min(plane.pitch_x, plane.pitch_y)));
     std::vector<PhotographPlan::Window> list;
     for (std::size_t y = 0; y < plane.height; y += side)
         for (std::size_t x = 0; x < plane.width; x += side) {
             const std::size_t right = std::min(x + side, plane.width), bottom = std::min(y + side, plane.height);
             Region region;
-            region.x0 = x - std::min(x, around);
-            region.y0 = y - std::min(y, around);
-            region.width = std::min(right + around, plane.width) - region.x0;
-            region.height = std::min(bottom + around, plane.height) - region.y0;
+            region.x0 = x - std::min(x, margin_samples);
+            region.y0 = y - std::min(y, margin_samples);
+            region.width = std::min(right + margin_samples, plane.width) - region.x0;
+            region.height = std::min(bottom + margin_samples, plane.height) - region.y0;
             Rectangle shown(part(plane, {x, y, right - x, bottom - y}));
             if (x == 0) shown.left -= margin;
             if (right == plane.width) shown.right += margin;
@@ -65,31 +66,32 @@ std::vector<PhotographPlan::Window> windows(const Grid& plane, std::size_t count
     return list;
 }
 
-struct Need {
-    double fixed = 0, a_look = 0;
+struct PassMemory {
+    double fixed = 0, per_look = 0;
 };
 
-// The memory of one pass over a window.
-Need need(const FieldGrid& hologram, const Rectangle& shown, std::span<const Camera> cameras,
-          const std::vector<SharedViewpoint>& eyes) {
-    Need bytes;
+// Returns the memory of one pass over a window.
+PassMemory pass_memory(const FieldGrid& hologram, const Rectangle& shown, std::span<const Camera> cameras,
+                       const std::vector<SharedViewpoint>& viewpoints) {
+    PassMemory bytes;
     double largest = 0;
-    for (const SharedViewpoint& eye : eyes) {
-        const narrow_band::NarrowBand band(hologram, cameras[eye.members.front()].eye, eye.pupil);
-        const film::FilmSize film(band, hologram, film_area(hologram.plane, eye.pictures, shown), eye.pupil, eye.blur);
-        bytes.a_look += 8.0 * static_cast<double>(band.plane.samples());
-        // Tiles that are being processed.
+    for (const SharedViewpoint& viewpoint : viewpoints) {
+        const narrow_band::NarrowBand band(hologram, cameras[viewpoint.members.front()].eye, viewpoint.pupil);
+        const film::FilmSize film(band, hologram, film_area(hologram.plane, viewpoint.pictures, shown), viewpoint.pupil,
+                                  viewpoint.blur);
+        bytes.per_look += 8.0 * static_cast<double>(band.plane.samples());
+        // Tiles in flight.
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
                             2 * narrow_band::NarrowBand::margin;
-        bytes.a_look += 8.0 * static_cast<double>(work::default_in_flight()) * tile * tile;
-        bytes.fixed += film.intensity_bytes() * static_cast<double>(eye.members.size());
+        bytes.per_look += 8.0 * static_cast<double>(work::default_in_flight()) * tile * tile;
+        bytes.fixed += film.intensity_bytes() * static_cast<double>(viewpoint.members.size());
         largest = std::max(largest, film.pupil_bytes() + film.work_bytes());
     }
     bytes.fixed += largest;
     return bytes;
 }
 
-// The plan with the least work that fits into memory; its `passes` are empty if none does.
+// Returns the plan with the least work that fits into memory. Its `passes` are empty if none fits.
 PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                          std::span<const std::size_t> counts) {
     std::vector<std::size_t> sorted(cameras.size());
@@ -98,82 +100,85 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
         const Vec3 p = cameras[a].eye, q = cameras[b].eye;
         return std::tie(p.z, p.y, p.x) < std::tie(q.z, q.y, q.x);
     });
-    double around = 0;
+    double max_margin = 0;
     for (const Camera& camera : cameras)
-        around = std::max(around, margin(hologram, camera.eye, camera.pupil, defocus_blur(camera)));
+        max_margin = std::max(max_margin, margin(hologram, camera.eye, camera.pupil, defocus_blur(camera)));
 
     PhotographPlan best;
     double min_work = std::numeric_limits<double>::infinity();
-    std::size_t cameras_a_pass = cameras.size();
+    std::size_t cameras_per_pass = cameras.size();
     while (true) {
         std::vector<std::vector<std::size_t>> passes;
-        for (std::size_t first = 0; first < sorted.size(); first += cameras_a_pass)
+        for (std::size_t first = 0; first < sorted.size(); first += cameras_per_pass)
             passes.emplace_back(
                 sorted.begin() + static_cast<std::ptrdiff_t>(first),
-                sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first + cameras_a_pass, sorted.size())));
+                sorted.begin() + static_cast<std::ptrdiff_t>(std::min(first + cameras_per_pass, sorted.size())));
         for (std::size_t count : counts) {
-            const std::vector<PhotographPlan::Window> list = windows(hologram.plane, count, around);
+            const std::vector<PhotographPlan::Window> list = windows(hologram.plane, count, max_margin);
             double read = 0;
             for (const PhotographPlan::Window& window : list) read += static_cast<double>(window.region.samples());
             const double work =
                 static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
             if (work >= min_work) continue;
-            // Only windows at the ends, the quarters and in the middle are tested, because memory varies slowly from
-            // one to the next.
+            // Tests windows at the ends, at the quarters and in the middle only, because memory varies slowly from one
+            // to the next.
             std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
-            double fixed = 0, a_look = 0;
+            double fixed = 0, per_look = 0;
             for (const auto& pass : passes)
                 for (std::size_t probe : probes) {
                     const FieldGrid window{part(hologram.plane, list[probe].region), hologram.wavelength};
-                    const Need bytes = need(window, list[probe].shown, cameras, group_by_viewpoint(cameras, pass));
+                    const PassMemory bytes =
+                        pass_memory(window, list[probe].shown, cameras, group_by_viewpoint(cameras, pass));
                     fixed = std::max(fixed, bytes.fixed);
-                    a_look = std::max(a_look, bytes.a_look);
+                    per_look = std::max(per_look, bytes.per_look);
                 }
-            if (fixed + a_look > memory) continue;
+            if (fixed + per_look > memory) continue;
             min_work = work;
-            best = {passes, list, fixed + a_look, a_look};
+            best = {passes, list, fixed + per_look, per_look};
         }
-        if (cameras_a_pass == 1) return best;
-        cameras_a_pass = (cameras_a_pass + 1) / 2;
+        if (cameras_per_pass == 1) return best;
+        cameras_per_pass = (cameras_per_pass + 1) / 2;
     }
 }
 
 }  // namespace
 
-Rectangle illuminated_area(const FieldGrid& hologram, const Vec3& eye, double pupil, double blur, double diffraction) {
-    const double around =
-        std::min(margin(hologram, eye, pupil, blur), diffraction + 0.5 * blur * metres_a_sine(hologram, eye));
+Rectangle illuminated_area(const FieldGrid& hologram, const Vec3& viewpoint, double pupil, double blur,
+                           double diffraction) {
+    const double distance = std::min(margin(hologram, viewpoint, pupil, blur),
+                                     diffraction + 0.5 * blur * metres_per_sine(hologram, viewpoint));
     Rectangle area(hologram.plane);
-    area.left -= around;
-    area.right += around;
-    area.bottom -= around;
-    area.top += around;
+    area.left -= distance;
+    area.right += distance;
+    area.bottom -= distance;
+    area.top += distance;
     return area;
 }
 
-double narrow_band_bytes(const FieldGrid& hologram, const Vec3& eye, double pupil) {
+double narrow_band_bytes(const FieldGrid& hologram, const Vec3& viewpoint, double pupil) {
     return static_cast<double>(sizeof(std::complex<float>) *
-                               narrow_band::NarrowBand(hologram, eye, pupil).plane.samples());
+                               narrow_band::NarrowBand(hologram, viewpoint, pupil).plane.samples());
 }
 
 std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras, std::span<const std::size_t> members) {
-    std::vector<SharedViewpoint> eyes;
+    std::vector<SharedViewpoint> viewpoints;
     for (std::size_t i : members) {
-        auto eye = std::find_if(eyes.begin(), eyes.end(), [&](const SharedViewpoint& e) {
+        auto viewpoint = std::find_if(viewpoints.begin(), viewpoints.end(), [&](const SharedViewpoint& e) {
             return cameras[e.members.front()].eye == cameras[i].eye;
         });
         const Rectangle picture(cameras[i].picture);
-        if (eye == eyes.end()) eye = eyes.insert(eyes.end(), SharedViewpoint{.members = {}, .pictures = picture});
-        Rectangle& all = eye->pictures;
+        if (viewpoint == viewpoints.end())
+            viewpoint = viewpoints.insert(viewpoints.end(), SharedViewpoint{.members = {}, .pictures = picture});
+        Rectangle& all = viewpoint->pictures;
         all.left = std::min(all.left, picture.left);
         all.right = std::max(all.right, picture.right);
         all.bottom = std::min(all.bottom, picture.bottom);
         all.top = std::max(all.top, picture.top);
-        eye->members.push_back(i);
-        eye->pupil = std::max(eye->pupil, cameras[i].pupil);
-        eye->blur = std::max(eye->blur, defocus_blur(cameras[i]));
+        viewpoint->members.push_back(i);
+        viewpoint->pupil = std::max(viewpoint->pupil, cameras[i].pupil);
+        viewpoint->blur = std::max(viewpoint->blur, defocus_blur(cameras[i]));
     }
-    return eyes;
+    return viewpoints;
 }
 
 std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras) {
@@ -183,12 +188,12 @@ std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras)
 }
 
 std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
-    // No more than is kept when it is freed (core::FreedBlocks): the system would clear it each time, a second for each
+    // At most the memory that core::FreedBlocks keeps for reuse. The system would clear more each time, a second per
     // gigabyte.
     const double spare = std::clamp(memory - bytes, 0.0, 1024.0 * 1024 * 1024);
-    const double most = 1 + std::floor(spare / (bytes_per_look * share)), all = static_cast<double>(looks);
-    // Equally many in each pass.
-    return static_cast<std::size_t>(std::ceil(all / std::max(1.0, std::ceil(all / most))));
+    const double max_looks = 1 + std::floor(spare / (bytes_per_look * share)), total = static_cast<double>(looks);
+    // Passes of equal size.
+    return static_cast<std::size_t>(std::ceil(total / std::max(1.0, std::ceil(total / max_looks))));
 }
 
 void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells) {
@@ -209,7 +214,7 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
         validate(camera);
         require_resolution(hologram, camera);
         narrow_band::NarrowBand(hologram, camera.eye,
-                                camera.pupil);  // throws where the pupil is too wide for the pitch
+                                camera.pupil);  // throws if the pupil is too wide for the pitch
     }
     if (cameras.empty()) return {};
     const std::span<const std::size_t> counts =

@@ -12,8 +12,8 @@
 namespace hogel::camera {
 namespace {
 
-// None where colours cannot share rays, or where their bands do not fit into memory together or take more time than
-// rays.
+// Returns nothing if the colours cannot share rays, or if their bands do not fit into memory together or cost more time
+// than rays.
 std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<const FieldSource>> colours,
                                             std::span<const Camera> cameras, const BandCamera& model) {
     if (colours.size() < 2 || cameras.empty() || model.vertical_diffuser || model.source == BandSource::samples)
@@ -24,9 +24,9 @@ std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<cons
     for (const auto& colour : colours) {
         stereograms.push_back(colour->stereogram());
         if (stereograms.back() == nullptr || colour->looks() != colours.front()->looks()) return {};
-        PhotographPlan own = plan_photographs(colour->grid(), cameras, memory);
-        if (own.passes.size() != 1 || own.windows.size() != 1) return {};
-        if (own.bytes > plan.bytes) plan = std::move(own);
+        PhotographPlan colour_plan = plan_photographs(colour->grid(), cameras, memory);
+        if (colour_plan.passes.size() != 1 || colour_plan.windows.size() != 1) return {};
+        if (colour_plan.bytes > plan.bytes) plan = std::move(colour_plan);
     }
     ColourBands bands{{},
                       {},
@@ -37,15 +37,16 @@ std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<cons
                       model.preview};
     for (const auto& colour : colours) bands.colours.push_back(colour->grid());
     const Grid& plane = bands.colours.front().plane;
-    bands.drawing = hogel_spectra::make_hogel_band_source_of_colours(stereograms, {0, 0, plane.width, plane.height},
-                                                                     viewpoints_of(bands.eyes, cameras, model.preview));
-    if (!bands.drawing) return {};
-    double a_look = 0;
-    for (std::size_t band = 0; band < colours.size() * bands.eyes.size(); ++band)
-        a_look += bands.drawing->bytes_per_look(band);
-    const double a_colour = a_look * static_cast<double>(bands.looks) / static_cast<double>(colours.size());
-    if (!renders_colours_together(a_colour, plane) || plan.bytes + a_look > memory) return {};
-    bands.looks_at_once = std::min(bands.looks, static_cast<std::size_t>((memory - plan.bytes) / a_look));
+    bands.source = hogel_spectra::make_hogel_band_source_of_colours(
+        stereograms, {0, 0, plane.width, plane.height}, viewpoints_of(bands.viewpoints, cameras, model.preview));
+    if (!bands.source) return {};
+    double bytes_per_look = 0;
+    for (std::size_t band = 0; band < colours.size() * bands.viewpoints.size(); ++band)
+        bytes_per_look += bands.source->bytes_per_look(band);
+    const double bytes_per_colour =
+        bytes_per_look * static_cast<double>(bands.looks) / static_cast<double>(colours.size());
+    if (!renders_colours_together(bytes_per_colour, plane) || plan.bytes + bytes_per_look > memory) return {};
+    bands.looks_at_once = std::min(bands.looks, static_cast<std::size_t>((memory - plan.bytes) / bytes_per_look));
     return bands;
 }
 

@@ -10,8 +10,8 @@
 
 namespace hogel::camera {
 
-/// Photographs of all colours of a hologram at once, [colour][camera], as photograph() takes them one by one: where
-/// rays have to be made for each of them and all bands fit into memory together. Otherwise none.
+/// Photographs all colours of a hologram at once, [colour][camera], with the result of photograph() for each colour.
+/// Returns nothing unless the colours need the same rays, which are not in memory, and all their bands fit into memory.
 std::optional<std::vector<std::vector<Image>>> photograph_together(
     std::span<const std::shared_ptr<const FieldSource>> colours, std::span<const Camera> cameras,
     const BandCamera& model, const Progress& progress);

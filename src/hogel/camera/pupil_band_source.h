@@ -14,28 +14,29 @@
 
 namespace hogel::camera {
 
-/// An eye and the widest pupil, metres, through which it looks. A preview may leave out waves that pass far from the
-/// pupil.
+/// Position of a lens and the diameter of its widest pupil, in metres. A preview may skip waves that pass far outside
+/// the pupil.
 struct Viewpoint {
     Vec3 position;
     double pupil = 0;
     bool preview = false;
 };
 
-/// The narrow bands of eyes: [eye][look].
+/// Pupil bands: [viewpoint][look].
 using PackedBands = std::vector<std::vector<PackedBand>>;
 
-/// Draws the light of a part of a hologram towards several eyes.
+/// Source of the pupil bands of a part of a hologram, for several viewpoints.
 class PupilBandSource {
   public:
     virtual ~PupilBandSource() = default;
-    /// The sampling of the narrow band of an eye.
-    virtual const narrow_band::BandGrid& band(std::size_t eye) const = 0;
-    /// The memory that a look to an eye takes while it is drawn.
-    virtual double bytes_per_look(std::size_t eye) const { return PackedBand::bytes(band(eye).plane); }
-    /// The narrow bands of looks [first_look, first_look + looks), as from draw_narrow_bands(). They do not depend on
-    /// the number of threads; those from samples are drawn by all processes of a team, and the first one has them.
-    virtual PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const = 0;
+    /// Returns the sampling of the band of a viewpoint.
+    virtual const narrow_band::BandGrid& band(std::size_t viewpoint) const = 0;
+    /// Returns the bytes that one look takes during synthesis.
+    virtual double bytes_per_look(std::size_t viewpoint) const { return PackedBand::bytes(band(viewpoint).plane); }
+    /// Synthesises the bands of looks [first_look, first_look + looks), as compute_narrow_bands() does. The result does
+    /// not depend on the number of threads. All ranks share the computation from samples, and only the root receives
+    /// the result.
+    virtual PackedBands synthesize(std::size_t first_look, std::size_t looks, const Progress& progress) const = 0;
 };
 
 }  // namespace hogel::camera

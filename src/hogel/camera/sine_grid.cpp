@@ -11,9 +11,9 @@
 namespace hogel::camera {
 namespace {
 
-// The minimum rate of change of the sines over the plane, per metre.
+// Returns the minimum slope of the sines over the plane, per metre.
 double min_slope(const ViewGeometry& geometry, const Grid& plane) {
-    // dn_x/dx = (1 - n_x²)/r, and likewise in y, is smallest at the corners farthest from the eye.
+    // dn_x/dx = (1 − n_x²)/r, and likewise in y, is smallest at the corners farthest from the viewpoint.
     double slope = std::numeric_limits<double>::infinity();
     for (double x : {plane.center_x - plane.size_x() / 2, plane.center_x + plane.size_x() / 2})
         for (double y : {plane.center_y - plane.size_y() / 2, plane.center_y + plane.size_y() / 2}) {
@@ -36,7 +36,7 @@ double defocus_blur(const Camera& camera) {
 }
 
 SineRanges sines_of(const ViewGeometry& geometry, const Grid& plane) {
-    // They are extreme on the edge of the plane.
+    // The extremes lie on the edge of the plane.
     constexpr double infinite = std::numeric_limits<double>::infinity();
     SineRanges sines{{infinite, -infinite}, {infinite, -infinite}};
     const auto include = [&](double x, double y) {
@@ -55,11 +55,11 @@ SineRanges sines_of(const ViewGeometry& geometry, const Grid& plane) {
 Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Rectangle& active) {
     Rectangle area(hologram);
     if (!pictures.meets(active)) return area;
-    // Pictures of the hologram alone have its edges but for rounding.
-    const double beside = 1e-9 * std::max(hologram.size_x(), hologram.size_y());
+    // Pictures of the hologram alone have its edges within rounding.
+    const double tolerance = 1e-9 * std::max(hologram.size_x(), hologram.size_y());
     const auto extend = [&](double& low, double& high, double first, double last) {
-        if (first < low - beside) low = first;
-        if (last > high + beside) high = last;
+        if (first < low - tolerance) low = first;
+        if (last > high + tolerance) high = last;
     };
     extend(area.left, area.right, std::max(pictures.left, active.left), std::min(pictures.right, active.right));
     extend(area.bottom, area.top, std::max(pictures.bottom, active.bottom), std::min(pictures.top, active.top));
@@ -83,9 +83,9 @@ SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, const R
     grid.y = grid.shown_y = sines.y;
     if (const Rectangle hologram(plane); shown.left < hologram.left || shown.right > hologram.right ||
                                          shown.bottom < hologram.bottom || shown.top > hologram.top) {
-        const SineRanges seen = sines_of(band.geometry, as_grid(shown));
-        grid.shown_x = {std::min(seen.x.low, grid.x.low), std::max(seen.x.high, grid.x.high)};
-        grid.shown_y = {std::min(seen.y.low, grid.y.low), std::max(seen.y.high, grid.y.high)};
+        const SineRanges shown_sines = sines_of(band.geometry, as_grid(shown));
+        grid.shown_x = {std::min(shown_sines.x.low, grid.x.low), std::max(shown_sines.x.high, grid.x.high)};
+        grid.shown_y = {std::min(shown_sines.y.low, grid.y.low), std::max(shown_sines.y.high, grid.y.high)};
     }
     // Nowhere coarser than the band, so that nothing aliases.
     grid.step = std::min(band.plane.pitch_x, band.plane.pitch_y) * min_slope(band.geometry, plane);
@@ -93,10 +93,10 @@ SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, const R
                                       band.geometry.wavelength() / pupil);
     const auto choose = [&](const SineGrid::Range& hologram, const SineGrid::Range& range, std::size_t& size,
                             double& first) {
-        const double wanted =
+        const double period =
             std::max(range.span(), SineGrid::farthest(hologram, range) + window.stop + 0.5 * blur) / grid.step;
-        size = math::good_fft_size(static_cast<std::size_t>(std::ceil(wanted)) + 1);
-        // Rows at distances of large powers of two map to the same cache sets, which is ten times slower.
+        size = math::good_fft_size(static_cast<std::size_t>(std::ceil(period)) + 1);
+        // Strides of large powers of two map rows to the same cache sets, which is ten times slower.
         while (size % 128 == 0) size = math::good_fft_size(size + 1);
         first = 0.5 * (range.low + range.high) - 0.5 * static_cast<double>(size - 1) * grid.step;
     };

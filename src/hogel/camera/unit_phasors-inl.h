@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// e^{2πi cycles} by vectors, for files that are compiled once for every SIMD target. To be included after
-// hwy/highway.h.
+// Vector code of e^{2πi cycles}, for files that are compiled for every SIMD target. Include it after hwy/highway.h.
 #if defined(HOGEL_OPTICS_UNIT_PHASORS) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_OPTICS_UNIT_PHASORS
 #undef HOGEL_OPTICS_UNIT_PHASORS
@@ -14,12 +13,12 @@ HWY_BEFORE_NAMESPACE();
 namespace hogel::camera::HWY_NAMESPACE {
 
 #if HWY_TARGET != HWY_SCALAR
-// e^{2πi cycles} for −1/2 … 1/2 cycles.
+// Computes e^{2πi cycles} for −1/2 … 1/2 cycles.
 template <class F>
 HWY_INLINE void unit_phasors_within(F cycles, F& cosine, F& sine) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::DFromV<F> df;
-    // Half of the angle, −π/2 … π/2, by the series of its sine and cosine, and doubled.
+    // Half of the angle, −π/2 … π/2, by the Taylor series of sine and cosine, then doubled.
     const auto half = hn::Mul(cycles, hn::Set(df, 3.14159265f));
     const auto square = hn::Mul(half, half);
     auto s = hn::Set(df, -1.0f / 39916800), c = hn::Set(df, 1.0f / 479001600);
@@ -33,7 +32,7 @@ HWY_INLINE void unit_phasors_within(F cycles, F& cosine, F& sine) {
     sine = hn::Mul(twice, c);
 }
 
-// e^{2πi cycles} for any number of cycles of double precision, to single precision.
+// Computes e^{2πi cycles} for any number of cycles in double precision, to single precision.
 template <class DD, class F>
 HWY_INLINE void unit_phasors(DD, hwy::HWY_NAMESPACE::Vec<DD> cycles, F& cosine, F& sine) {
     namespace hn = hwy::HWY_NAMESPACE;

@@ -9,9 +9,9 @@
 
 namespace hogel::camera {
 
-/// The geometry of a hologram as seen from the centre c of a lens. A point (x, y, 0) is in direction n = (x − c)/r, so
-/// n_x and n_y are direction sines. Light from there to a point δ of the pupil has, after demodulation by e^{ikr}, the
-/// frequency n'·δ/λ.
+/// Geometry of a hologram as seen from the viewpoint c, the centre of a lens. A point (x, y, 0) is in direction n = (x
+/// − c)/r, so n_x and n_y are direction sines. Light from it to a point δ of the pupil has the frequency n'·δ/λ after
+/// demodulation by e^{ikr}.
 class ViewGeometry {
   public:
     ViewGeometry(Vec3 eye, double wavelength) : eye_(eye), wavelength_(wavelength) {}
@@ -21,7 +21,7 @@ class ViewGeometry {
     double distance(double x, double y) const {
         return std::sqrt((x - eye_.x) * (x - eye_.x) + (y - eye_.y) * (y - eye_.y) + eye_.z * eye_.z);
     }
-    /// The phase kr of the path from (x, y, 0) to the eye, in cycles.
+    /// Returns the phase kr of the path from (x, y, 0) to the viewpoint, in cycles.
     double cycles(double x, double y) const { return distance(x, y) / wavelength_; }
     double cosine(double x, double y) const { return eye_.z / distance(x, y); }
     double sine_x(double x, double y) const { return (x - eye_.x) / distance(x, y); }

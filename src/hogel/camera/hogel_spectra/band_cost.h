@@ -10,11 +10,11 @@
 
 namespace hogel::camera::hogel_spectra {
 
-/// The hogels of all colours, of a method of which waves are known; none of any other.
+/// Returns the hogels of all colours. Returns none if the method's waves are not known.
 std::vector<HogelLayout> layouts_of(const HologramMethod& method, const LightFieldGrid& light_field,
                                     std::span<const FieldGrid> colours);
 
-/// Resources to photograph a hologram of these colours from its hogels.
+/// Returns the resources to photograph a hologram of these colours from its hogel spectra.
 Plan plan_from_hogels(std::span<const HogelLayout> colours, std::size_t looks, std::span<const Camera> cameras,
                       const BandCamera& model);
 

@@ -17,35 +17,37 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// From a part to the next one along an axis whose light does not meet its own: nodes reach at most eight beyond either
-// end of a hogel, or of its window, which has at least one to a hogel.
-constexpr std::size_t parts_apart(std::size_t side, std::size_t overlap) {
+// Returns the chunks, along an axis, from one to the next that does not overlap it. Nodes extend at most eight beyond
+// either end of a hogel or of its window, which has at least one node per hogel.
+constexpr std::size_t chunk_stride(std::size_t side, std::size_t overlap) {
     return (side + overlap - 1 + std::size_t{2} * 8 + side - 1) / side;
 }
 
-// Eyes that see several colours of the same hogels, part by part, so that these may share rays.
+// Source of the bands of several colours of the same hogels. It renders all colours of a chunk before the next chunk,
+// so that colours may share rays.
 class HogelBandSource final : public camera::PupilBandSource {
   public:
     HogelBandSource(std::vector<std::unique_ptr<HogelBandRenderer>> colours, const HogelRange& range)
         : colours_(std::move(colours)), range_(range) {}
 
-    const camera::narrow_band::BandGrid& band(std::size_t eye) const override { return eye_band(eye).grid(); }
+    const camera::narrow_band::BandGrid& band(std::size_t index) const override { return pupil_band(index).grid(); }
 
-    camera::PackedBands draw(std::size_t first_look, std::size_t looks, const Progress& progress) const override {
-        const HogelBandRenderer::Looks some{first_look, looks};
+    camera::PackedBands synthesize(std::size_t first_look, std::size_t looks, const Progress& progress) const override {
+        const HogelBandRenderer::Looks range_of_looks{first_look, looks};
         camera::PackedBands bands;
-        for (std::size_t eye = 0; eye < colours_.size() * each(); ++eye) {
-            const Grid& plane = band(eye).plane;
+        for (std::size_t index = 0; index < colours_.size() * bands_per_colour(); ++index) {
+            const Grid& plane = band(index).plane;
             bands.push_back(camera::PackedBand::dark(looks, plane.height, plane.width));
         }
-        const std::vector<std::vector<HogelPart>> sets = parts();
-        work::Steps steps(progress, count_of(sets));
+        const std::vector<std::vector<HogelChunk>> sets = chunk_sets();
+        work::Steps steps(progress, total_size(sets));
         for (const auto& set : sets)
             work::parallel_for(set.size(), [&](std::size_t i) {
                 for (std::size_t c = 0; c < colours_.size(); ++c) {
                     auto scratch = colours_[c]->scratch();
-                    colours_[c]->draw(set[i], some, *scratch);
-                    colours_[c]->add(*scratch, set[i], std::span(bands).subspan(c * each(), each()));
+                    colours_[c]->render(set[i], range_of_looks, *scratch);
+                    colours_[c]->add(*scratch, set[i],
+                                     std::span(bands).subspan(c * bands_per_colour(), bands_per_colour()));
                 }
                 steps.report_one();
             });
@@ -53,24 +55,26 @@ class HogelBandSource final : public camera::PupilBandSource {
     }
 
   private:
-    std::size_t each() const { return colours_.front()->eyes().size(); }
-    const PupilBand& eye_band(std::size_t eye) const { return colours_[eye / each()]->eyes()[eye % each()]; }
+    std::size_t bands_per_colour() const { return colours_.front()->bands().size(); }
+    const PupilBand& pupil_band(std::size_t index) const {
+        return colours_[index / bands_per_colour()]->bands()[index % bands_per_colour()];
+    }
 
-    static std::size_t count_of(const std::vector<std::vector<HogelPart>>& sets) {
+    static std::size_t total_size(const std::vector<std::vector<HogelChunk>>& sets) {
         return std::accumulate(sets.begin(), sets.end(), std::size_t{0},
                                [](std::size_t sum, const auto& set) { return sum + set.size(); });
     }
 
-    // All parts, in sets of which no two parts meet, so that threads may add them in any order: every second part along
-    // an axis, or every third, is a set.
-    std::vector<std::vector<HogelPart>> parts() const {
+    // Returns all chunks in sets without overlaps, so that threads may add a set's chunks in any order: every second or
+    // third chunk along an axis.
+    std::vector<std::vector<HogelChunk>> chunk_sets() const {
         const std::size_t overlap = colours_.front()->overlap();
-        const std::size_t apart_x = parts_apart(part_across, overlap), apart_y = parts_apart(part_down, overlap);
-        std::vector<std::vector<HogelPart>> sets(apart_x * apart_y);
-        for (std::size_t row = 0, t = 0; t < range_.nt; ++row, t += part_down)
-            for (std::size_t s = 0; s < range_.ns; s += part_across)
-                sets[row % apart_y * apart_x + s / part_across % apart_x].push_back(
-                    {s, t, std::min(part_across, range_.ns - s), std::min(part_down, range_.nt - t)});
+        const std::size_t stride_x = chunk_stride(chunk_width, overlap), stride_y = chunk_stride(chunk_height, overlap);
+        std::vector<std::vector<HogelChunk>> sets(stride_x * stride_y);
+        for (std::size_t row = 0, t = 0; t < range_.nt; ++row, t += chunk_height)
+            for (std::size_t s = 0; s < range_.ns; s += chunk_width)
+                sets[row % stride_y * stride_x + s / chunk_width % stride_x].push_back(
+                    {s, t, std::min(chunk_width, range_.ns - s), std::min(chunk_height, range_.nt - t)});
         return sets;
     }
 
@@ -79,34 +83,34 @@ class HogelBandSource final : public camera::PupilBandSource {
 };
 
 std::unique_ptr<PupilBandSource> make_hogel_bands(std::span<const Hogels> colours, const Region& part,
-                                                  std::span<const Viewpoint> eyes) {
+                                                  std::span<const Viewpoint> viewpoints) {
     const HogelRange range = colours.front().range_of(part);
-    std::vector<std::unique_ptr<HogelBandRenderer>> all;
+    std::vector<std::unique_ptr<HogelBandRenderer>> renderers;
     for (const Hogels& hogels : colours) {
-        std::vector<PupilBand> bands = PupilBand::of(hogels, range, eyes);
+        std::vector<PupilBand> bands = PupilBand::create(hogels, range, viewpoints);
         if (bands.empty()) return nullptr;
-        all.push_back(std::make_unique<HogelBandRenderer>(hogels, range, std::move(bands)));
+        renderers.push_back(std::make_unique<HogelBandRenderer>(hogels, range, std::move(bands)));
     }
-    return std::make_unique<HogelBandSource>(std::move(all), range);
+    return std::make_unique<HogelBandSource>(std::move(renderers), range);
 }
 
-// The rays of blocks of hogels, which several colours need one after the other.
+// Rays of blocks of hogels, which the colours need one after the other.
 using SharedRays = work::LruCache<std::array<std::size_t, 4>, std::vector<LightFieldTile>>;
 constexpr double max_shared_bytes = 512.0 * (1 << 20);
 
-// Whether hogels are made from the same rays.
+// Whether hogels need the same rays.
 bool have_same_rays(const Hogels& a, const Hogels& b) {
     return a.rays && b.rays && a.columns == b.columns && a.rows == b.rows && a.rays->with_depth == b.rays->with_depth &&
            std::ranges::equal(a.rays->faces, b.rays->faces);
 }
 
-// Lets hogels be prepared from shared rays.
+// Makes hogels prepare from shared rays.
 void share_rays(const std::shared_ptr<SharedRays>& shared, Hogels& hogels) {
     hogels.prepare = [shared, rays = *hogels.rays](const HogelRange& range, View<float, 2> prepared) {
         const auto tiles = shared->get({range.s0, range.t0, range.ns, range.nt}, [&] {
-            auto made = std::make_shared<std::vector<LightFieldTile>>();
-            rays.read(range, *made);
-            return std::shared_ptr<const std::vector<LightFieldTile>>(std::move(made));
+            auto loaded = std::make_shared<std::vector<LightFieldTile>>();
+            rays.read(range, *loaded);
+            return std::shared_ptr<const std::vector<LightFieldTile>>(std::move(loaded));
         });
         rays.prepare(*tiles, prepared);
     };
@@ -115,26 +119,27 @@ void share_rays(const std::shared_ptr<SharedRays>& shared, Hogels& hogels) {
 }  // namespace
 
 std::unique_ptr<PupilBandSource> make_hogel_band_source(const stereogram::Stereogram& hologram, const Region& part,
-                                                        std::span<const Viewpoint> eyes, const KeptWaves* kept_waves) {
-    const Hogels hogels{hologram.hogels(), kept_waves};
+                                                        std::span<const Viewpoint> viewpoints,
+                                                        const WaveCache* wave_cache) {
+    const Hogels hogels{hologram.hogels(), wave_cache};
     if (hogels.waves == nullptr) return nullptr;
-    return make_hogel_bands({&hogels, 1}, part, eyes);
+    return make_hogel_bands({&hogels, 1}, part, viewpoints);
 }
 
 std::unique_ptr<PupilBandSource> make_hogel_band_source_of_colours(
-    std::span<const stereogram::Stereogram* const> colours, const Region& part, std::span<const Viewpoint> eyes) {
-    std::vector<Hogels> all;
+    std::span<const stereogram::Stereogram* const> colours, const Region& part, std::span<const Viewpoint> viewpoints) {
+    std::vector<Hogels> renderers;
     for (const stereogram::Stereogram* colour : colours) {
-        all.push_back({colour->hogels(), nullptr});
-        if (!have_same_rays(all.back(), all.front())) return nullptr;
+        renderers.push_back({colour->hogels(), nullptr});
+        if (!have_same_rays(renderers.back(), renderers.front())) return nullptr;
     }
-    // The blocks of the parts that all threads draw.
-    const std::size_t blocks = thread_count() * (part_down / tile_side + 2);
-    const double bytes = static_cast<double>(blocks * part_across * tile_side * all.front().rays->bytes_a_hogel);
+    // Blocks of the chunks of all threads.
+    const std::size_t blocks = thread_count() * (chunk_height / tile_side + 2);
+    const double bytes = static_cast<double>(blocks * chunk_width * tile_side * renderers.front().rays->bytes_a_hogel);
     if (bytes > max_shared_bytes) return nullptr;
     const auto shared = std::make_shared<SharedRays>(blocks);
-    for (Hogels& hogels : all) share_rays(shared, hogels);
-    return make_hogel_bands(all, part, eyes);
+    for (Hogels& hogels : renderers) share_rays(shared, hogels);
+    return make_hogel_bands(renderers, part, viewpoints);
 }
 
 }  // namespace hogel::camera::hogel_spectra

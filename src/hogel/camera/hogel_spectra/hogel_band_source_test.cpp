@@ -153,7 +153,7 @@ std::vector<double> errors_in_pupil(const Case& c) {
         const auto drawing = draw_hogels_of(*hologram, all, {&c.eye, 1});
         if (!drawing) return {};
         const camera::narrow_band::BandGrid& band = drawing->band(0);
-        const auto bands = drawing->draw(0, 2, {});
+        const auto bands = drawing->synthesize(0, 2, {});
         for (std::size_t look : {0, 1}) {
             Array<std::complex<float>, 2> field({plane.height, plane.width});
             hologram->read(all, look, field);
@@ -203,7 +203,7 @@ TEST(HogelBandSource, draw_a_window_as_a_part_of_the_whole) {
     const Region part{40, 33, 90, 70};  // cuts hogels 1 to 4 and 1 to 3
     const auto window = draw_hogels_of(*hologram, part, {&eye, 1});
     ASSERT_TRUE(window);
-    const auto band = window->draw(0, 1, {});
+    const auto band = window->synthesize(0, 1, {});
     Array<std::complex<float>, 2> field({96, 128});
     hologram->read({32, 32, 128, 96}, 0, field);
     const Grid plane = hogel::part(hologram->grid().plane, {32, 32, 128, 96});
@@ -217,12 +217,12 @@ TEST(HogelBandSource, do_not_depend_on_threads_or_on_other_eyes) {
     const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 3, 1});
     const std::vector<Viewpoint> eyes{{{1_mm, 2_mm, 30_mm}, 1_mm}, {{-3_mm, 0, 40_mm}, 0.5_mm}};
     const Region all{0, 0, hologram->grid().plane.width, hologram->grid().plane.height};
-    const auto draw = [&](std::span<const Viewpoint> some, std::size_t first, std::size_t looks) {
-        return draw_hogels_of(*hologram, all, some)->draw(first, looks, {});
+    const auto synthesize = [&](std::span<const Viewpoint> some, std::size_t first, std::size_t looks) {
+        return draw_hogels_of(*hologram, all, some)->synthesize(first, looks, {});
     };
-    const auto both = draw(eyes, 0, 3);
+    const auto both = synthesize(eyes, 0, 3);
     const ThreadLimit single(1);
-    const auto one = draw({&eyes[1], 1}, 1, 2);
+    const auto one = synthesize({&eyes[1], 1}, 1, 2);
     for (std::size_t look : {0, 1}) EXPECT_TRUE(both[1][look + 1] == one[0][look]);
 }
 
@@ -233,9 +233,9 @@ TEST(HogelBandSource, do_not_depend_on_other_looks) {
     const Viewpoint eye{{1_mm, 2_mm, 30_mm}, 1_mm};
     const Region all{0, 0, hologram->grid().plane.width, hologram->grid().plane.height};
     const auto drawing = draw_hogels_of(*hologram, all, {&eye, 1});
-    const auto together = drawing->draw(0, 18, {}), some = drawing->draw(2, 8, {});
+    const auto together = drawing->synthesize(0, 18, {}), some = drawing->synthesize(2, 8, {});
     for (std::size_t look : {0, 2, 9, 15, 16, 17}) {
-        const auto alone = drawing->draw(look, 1, {});
+        const auto alone = drawing->synthesize(look, 1, {});
         EXPECT_TRUE(together[0][look] == alone[0][0]) << look;
         if (look >= 2 && look < 10) {
             EXPECT_TRUE(some[0][look - 2] == alone[0][0]) << look;

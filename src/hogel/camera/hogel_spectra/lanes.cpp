@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// The sum of value(wave) over the waves of some pairs.
+// Returns the sum of value(wave) over the waves of all pairs.
 template <class Value>
 float sum_of(const SlepianBasis::Weights& weights, const Value& value) {
     float sum = 0;
@@ -33,14 +33,14 @@ void sum_columns(const SlepianBasis& basis, const SlepianBasis::Weights& columns
         }
 }
 
-// The number of a lane at node x of function l down.
+// Returns the number of a lane at node x of function l down.
 Complex node_of_lane(const SlepianBasis& basis, const float* numbers, const float* carrier, std::size_t lane,
                      std::size_t l, std::size_t x) {
-    const auto turn = [](std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); };
+    const auto odd_factor = [](std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); };
     Complex sum = 0;
     for (std::size_t k = 0; k < basis.functions(); ++k) {
         const float* number = numbers + (l * basis.functions() + k) * 2 * lanes + lane;
-        sum += basis.spread()(x, k) * turn(k) * turn(l) * Complex(number[0], number[lanes]);
+        sum += basis.spread()(x, k) * odd_factor(k) * odd_factor(l) * Complex(number[0], number[lanes]);
     }
     return sum * Complex(carrier[x], carrier[padded(basis.nodes()) + x]);
 }
@@ -59,13 +59,13 @@ void sum_row_of_halves_plain(const SlepianBasis& basis, const SlepianBasis::Weig
 }
 
 void sum_rows_plain(const SlepianBasis& basis, const SlepianBasis::Weights& rows, float sign, const float* lines,
-                    const float* chosen, float* numbers) {
+                    const float* mask, float* numbers) {
     const std::size_t functions = basis.functions(), line = functions * 2 * lanes;
     for (std::size_t l = 0; l < functions; ++l)
         for (std::size_t i = 0; i < line; ++i) {
             const float* weights = rows.first + l * rows.stride;
             const float sum = sum_of(rows, [&](std::size_t row) { return weights[row] * lines[row * line + i]; });
-            if (chosen[i % lanes] != 0) numbers[l * line + i] = sign * sum;
+            if (mask[i % lanes] != 0) numbers[l * line + i] = sign * sum;
         }
 }
 

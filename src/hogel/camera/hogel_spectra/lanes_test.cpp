@@ -52,9 +52,9 @@ struct Batch {
         const std::size_t n = basis.samples(), line = basis.functions() * both;
         Array<float, 1> lines({n * line});
         for (std::size_t row = 0; row < n; ++row) sum_one(basis, columns, &waves(row * n * both), &lines(row * line));
-        alignas(64) float chosen[lanes];
-        std::ranges::fill(chosen, 1.0f);
-        sum_all(basis, rows, columns.sign * rows.sign, lines.data(), chosen, numbers.data());
+        alignas(64) float mask[lanes];
+        std::ranges::fill(mask, 1.0f);
+        sum_all(basis, rows, columns.sign * rows.sign, lines.data(), mask, numbers.data());
     }
 
     // What project_plain() adds to a line for one lane.
@@ -170,12 +170,12 @@ TEST_P(EyeLanes, need_no_dark_rows) {
     pairs.erase(pairs.begin() + 3);
     const SlepianBasis::Weights all = rows;
     rows.pairs = pairs;
-    alignas(64) float chosen[lanes];
-    std::ranges::fill(chosen, 1.0f);
+    alignas(64) float mask[lanes];
+    std::ranges::fill(mask, 1.0f);
     Array<float, 1> expected({basis.functions() * line}), fast(expected.shape()), plain(expected.shape());
-    sum_rows_plain(basis, all, 1, dark.data(), chosen, expected.data());
-    sum_rows(basis, rows, 1, lines.data(), chosen, fast.data());
-    sum_rows_plain(basis, rows, 1, lines.data(), chosen, plain.data());
+    sum_rows_plain(basis, all, 1, dark.data(), mask, expected.data());
+    sum_rows(basis, rows, 1, lines.data(), mask, fast.data());
+    sum_rows_plain(basis, rows, 1, lines.data(), mask, plain.data());
     for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_NEAR(fast(i), expected(i), 1e-4) << i;
         ASSERT_NEAR(plain(i), expected(i), 1e-4) << i;
@@ -189,9 +189,9 @@ TEST_P(EyeLanes, that_are_not_chosen_stay) {
     const Array<float, 1> lines = noise(32 * line, 3);
     Array<float, 1> numbers({basis.functions() * line});
     std::ranges::fill(numbers.elements(), 7.0f);
-    alignas(64) float chosen[lanes] = {0, 1, 1, 0, 0, 1};
-    sum_rows(basis, basis.weights(0.5), 1, lines.data(), chosen, numbers.data());
-    for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers(i) == 7.0f, chosen[i % lanes] == 0) << i;
+    alignas(64) float mask[lanes] = {0, 1, 1, 0, 0, 1};
+    sum_rows(basis, basis.weights(0.5), 1, lines.data(), mask, numbers.data());
+    for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers(i) == 7.0f, mask[i % lanes] == 0) << i;
 }
 
 // The waves of lanes are those of single hogels with phases from the middle.

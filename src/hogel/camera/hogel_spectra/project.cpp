@@ -9,8 +9,8 @@ namespace {
 
 using Complex = std::complex<float>;
 
-// i for odd functions, whose samples in a band are imaginary.
-Complex turn(std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); }
+// Returns i for odd functions, which have imaginary samples in a band.
+Complex odd_factor(std::size_t function) { return function % 2 == 0 ? Complex(1) : Complex(0, 1); }
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void project_plain(const SlepianBases& bases, const HogelView& view, const float
     const std::size_t rows = down.samples(), columns = across.samples(), nodes = across.nodes();
     Array<Complex, 2> sums({rows, across.functions()});  // D_x applied: [row][function across]
     for (std::size_t row = 0; row < rows; ++row)
-        for (std::size_t column = 0; column < columns && view.near.has_any(row / lanes * lanes, lanes, rows);
+        for (std::size_t column = 0; column < columns && view.in_band_rows.has_any(row / lanes * lanes, lanes, rows);
              ++column) {
             const float* wave = waves + ((row / lanes * columns + column) * 2) * lanes + row % lanes;
             const Complex value = Complex(wave[0], wave[lanes]);
@@ -54,7 +54,7 @@ void project_plain(const SlepianBases& bases, const HogelView& view, const float
         for (std::size_t k = 0; k < across.functions(); ++k) {
             for (std::size_t row = 0; row < rows; ++row)
                 numbers[k] += view.rows.first[l * view.rows.stride + row] * sums(row, k);
-            numbers[k] *= view.columns.sign * view.rows.sign * turn(k) * turn(l);
+            numbers[k] *= view.columns.sign * view.rows.sign * odd_factor(k) * odd_factor(l);
         }
         float *real = line.first + 2 * l * line.row, *imaginary = real + line.row;
         for (std::size_t x = 0; x < nodes; ++x) {

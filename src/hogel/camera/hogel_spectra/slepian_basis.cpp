@@ -16,22 +16,22 @@ using math::Quadrature;
 
 using std::numbers::pi;
 
-// Nodes beyond either end of a hogel, at most.
+// Maximum number of nodes beyond either end of a hogel.
 constexpr std::size_t max_beyond = 8;
 
-// The samples a(b), real, for which Σ_b a(b) cos 2πκx_b (or sin) is closest to f(κ) for |κ| ≤ κ_m.
+// Least-squares fit of the real samples a(b) such that Σ_b a(b) cos 2πκx_b (or sin) is closest to f(κ) for |κ| ≤ κ_m.
 class Fit {
   public:
-    Fit(const Quadrature& quadrature, std::span<const double> places, bool odd)
-        : quadrature_(quadrature), waves_({quadrature.points.size(), places.size()}) {
-        Array<double, 2> normal({places.size(), places.size()});
+    Fit(const Quadrature& quadrature, std::span<const double> positions, bool odd)
+        : quadrature_(quadrature), waves_({quadrature.points.size(), positions.size()}) {
+        Array<double, 2> normal({positions.size(), positions.size()});
         for (std::size_t i = 0; i < quadrature.points.size(); ++i) {
-            for (std::size_t b = 0; b < places.size(); ++b) {
-                const double angle = 2 * pi * quadrature.points[i] * places[b];
+            for (std::size_t b = 0; b < positions.size(); ++b) {
+                const double angle = 2 * pi * quadrature.points[i] * positions[b];
                 waves_(i, b) = odd ? std::sin(angle) : std::cos(angle);
             }
-            for (std::size_t a = 0; a < places.size(); ++a)
-                for (std::size_t b = 0; b < places.size(); ++b)
+            for (std::size_t a = 0; a < positions.size(); ++a)
+                for (std::size_t b = 0; b < positions.size(); ++b)
                     normal(a, b) += quadrature.weights[i] * waves_(i, a) * waves_(i, b);
         }
         normal_ = eigensystem(std::move(normal));
@@ -43,7 +43,7 @@ class Fit {
         for (std::size_t i = 0; i < function.size(); ++i)
             for (std::size_t b = 0; b < nodes; ++b) right[b] += quadrature_.weights[i] * waves_(i, b) * function[i];
         for (std::size_t e = 0; e < nodes; ++e) {
-            // Combinations of nodes that hardly send light into the pupil stay zero, so that no sample becomes large.
+            // Skips combinations of nodes that hardly send light into the pupil, so that no sample becomes large.
             if (normal_.values[e] < 1e-9 * normal_.values[0]) break;
             double along = 0;
             for (std::size_t b = 0; b < nodes; ++b) along += normal_.vectors(e, b) * right[b];
@@ -69,9 +69,9 @@ class Fit {
     Eigensystem normal_;
 };
 
-// The even (sign 1) or odd (sign −1) eigenfunctions of a kernel, times the roots of the weights. Each by itself,
-// because the largest eigenvalues of a wide band are all 1 but for rounding, and the kernel's own vectors mix both
-// parities there.
+// Returns the even (sign 1) or odd (sign −1) eigenfunctions of a kernel, times the roots of the weights. Each parity
+// has its own eigensystem: the largest eigenvalues of a wide band are all 1 within rounding, and the full kernel's
+// eigenvectors would mix parities there.
 template <class Kernel>
 Eigensystem prolate(const Quadrature& quadrature, double sign, const Kernel& kernel) {
     const std::size_t points = quadrature.points.size();
@@ -93,18 +93,20 @@ SlepianBasis::SlepianBasis(std::size_t samples, std::size_t nodes_per_hogel, dou
         math::gauss_legendre(20 + static_cast<std::size_t>(std::ceil(6 * half_band)), half_band);
     const std::size_t points = quadrature.points.size();
     const auto kernel = [&](double y) { return square_at(y) / static_cast<double>(samples); };
-    const Eigensystem even_ones = prolate(quadrature, 1, kernel), odd_ones = prolate(quadrature, -1, kernel);
-    const auto of_parity = [&](std::size_t k) -> const Eigensystem& { return k % 2 == 0 ? even_ones : odd_ones; };
+    const Eigensystem even_functions = prolate(quadrature, 1, kernel), odd_functions = prolate(quadrature, -1, kernel);
+    const auto of_parity = [&](std::size_t k) -> const Eigensystem& {
+        return k % 2 == 0 ? even_functions : odd_functions;
+    };
     const auto eigenvalue = [&](std::size_t k) { return std::max(of_parity(k).values[k / 2], 0.0); };
-    // An eigenvalue is the power that random samples have in its function.
-    double power = 0, left_out = 0;
+    // An eigenvalue is the power of random samples in its function.
+    double power = 0, omitted = 0;
     for (std::size_t k = 0; k < points; ++k) {
         const double value = eigenvalue(k);
         power += value;
         if (value >= tolerance * tolerance * eigenvalue(0))
             functions_ = k + 1;
         else
-            left_out += value;
+            omitted += value;
     }
     Array<double, 2> functions({functions_, points});
     for (std::size_t k = 0; k < functions_; ++k)
@@ -113,26 +115,26 @@ SlepianBasis::SlepianBasis(std::size_t samples, std::size_t nodes_per_hogel, dou
 
     double misfit = 0;
     for (before_ = before; before_ <= max_beyond; ++before_) {
-        std::vector<double> places;
-        for (std::size_t b = 0; b < per_hogel_ + 2 * before_; ++b) places.push_back(place(b));
-        const Fit even(quadrature, places, false), odd(quadrature, places, true);
-        spread_ = Array<float, 2>({places.size(), functions_});
+        std::vector<double> positions;
+        for (std::size_t b = 0; b < per_hogel_ + 2 * before_; ++b) positions.push_back(position(b));
+        const Fit even(quadrature, positions, false), odd(quadrature, positions, true);
+        spread_ = Array<float, 2>({positions.size(), functions_});
         misfit = 0;
         for (std::size_t k = 0; k < functions_; ++k) {
             const Fit& fit = k % 2 == 0 ? even : odd;
-            const std::vector<double> own = fit.samples(functions[k].elements());
-            misfit += eigenvalue(k) * fit.error(own, functions[k].elements());
-            for (std::size_t b = 0; b < own.size(); ++b)
-                spread_(b, k) =
-                    static_cast<float>(own[b] * static_cast<double>(per_hogel_) / static_cast<double>(samples_));
+            const std::vector<double> node_samples = fit.samples(functions[k].elements());
+            misfit += eigenvalue(k) * fit.error(node_samples, functions[k].elements());
+            for (std::size_t b = 0; b < node_samples.size(); ++b)
+                spread_(b, k) = static_cast<float>(node_samples[b] * static_cast<double>(per_hogel_) /
+                                                   static_cast<double>(samples_));
         }
         if (misfit <= tolerance * tolerance * power || before_ == max_beyond) break;
     }
-    error_ = std::sqrt((misfit + left_out) / power);
+    error_ = std::sqrt((misfit + omitted) / power);
     tabulate(functions, quadrature.points, quadrature.weights);
 }
 
-// The window is ½ + ½ cos 2πx and its square ⅜ + ½ cos 2πx + ⅛ cos 4πx: a cosine of the window moves the kernel by its
+// The window is ½ + ½ cos 2πx and its square ⅜ + ½ cos 2πx + ⅛ cos 4πx. A cosine of the window shifts the kernel by its
 // frequency.
 double SlepianBasis::window_at(double y) const {
     const double middle = dirichlet(y, samples_);
@@ -148,13 +150,13 @@ double SlepianBasis::square_at(double y) const {
 }
 
 void SlepianBasis::tabulate(View<const double, 2> functions, std::span<const double> points,
-                            std::span<const double> shares) {
+                            std::span<const double> quadrature_weights) {
     table_ = Array<float, 3>({fractions, functions_, 2 * samples_});
     Array<double, 2> weighted(functions.shape());
     for (std::size_t k = 0; k < functions_; ++k)
-        for (std::size_t i = 0; i < points.size(); ++i) weighted(k, i) = shares[i] * functions(k, i);
-    // Frequencies n apart have the same weights, or opposite ones if n is even.
-    const float again = samples_ % 2 == 0 ? -1.0f : 1.0f;
+        for (std::size_t i = 0; i < points.size(); ++i) weighted(k, i) = quadrature_weights[i] * functions(k, i);
+    // Frequencies n apart have the same weights, or opposite ones for even n.
+    const float mirrored = samples_ % 2 == 0 ? -1.0f : 1.0f;
     std::vector<double> sums(functions_);
     for (std::size_t fraction = 0; fraction < fractions; ++fraction)
         for (std::size_t m = 0; m < samples_; ++m) {
@@ -166,7 +168,7 @@ void SlepianBasis::tabulate(View<const double, 2> functions, std::span<const dou
             }
             for (std::size_t k = 0; k < functions_; ++k) {
                 table_(fraction, k, m) = static_cast<float>(sums[k]);
-                table_(fraction, k, samples_ + m) = again * table_(fraction, k, m);
+                table_(fraction, k, samples_ + m) = mirrored * table_(fraction, k, m);
             }
         }
     folded_ = Array<float, 3>({fractions, samples_ / 2 + 1, functions_});
@@ -177,12 +179,12 @@ void SlepianBasis::tabulate(View<const double, 2> functions, std::span<const dou
     make_carriers();
 }
 
-// Places are odd multiples of half of a node's share of a hogel, so that carriers repeat.
+// Positions are odd multiples of half a node spacing, so carriers are periodic in ν.
 void SlepianBasis::make_carriers() {
     carriers_ = Array<float, 3>({2 * fractions * per_hogel_, 2, padded(nodes())});
     for (std::size_t step = 0; step < carriers_.extent(0); ++step)
         for (std::size_t node = 0; node < nodes(); ++node) {
-            const double cycles = static_cast<double>(step) / static_cast<double>(fractions) * place(node);
+            const double cycles = static_cast<double>(step) / static_cast<double>(fractions) * position(node);
             const double angle = -2 * pi * (cycles - std::round(cycles));
             carriers_(step, 0, node) = static_cast<float>(std::cos(angle));
             carriers_(step, 1, node) = static_cast<float>(std::sin(angle));
@@ -191,24 +193,24 @@ void SlepianBasis::make_carriers() {
 
 void SlepianBasis::make_pairs() {
     const std::size_t n = samples_;
-    const bool opposite = n % 2 == 0;  // frequencies n apart
+    const bool opposite = n % 2 == 0;  // for frequencies n apart
     for (std::size_t fraction = 0; fraction < fractions; ++fraction)
         for (std::size_t begin = 0; begin < n; ++begin) {
-            // The wave of i = m + begin, modulo n.
+            // The wave m with i = m + begin, modulo n.
             const auto wave = [&](std::size_t i) {
                 return static_cast<std::uint32_t>(i < begin ? i + n - begin : i - begin);
             };
             const auto sign = [&](bool negative) { return negative ? -0.0f : 0.0f; };
             std::vector<SymmetricPair> unpaired;
             for (std::size_t i = 0; 2 * i + fraction <= n; ++i) {
-                const std::size_t again = n - i - fraction;  // of n − y
+                const std::size_t mirrored = n - i - fraction;  // of n − y
                 const bool negative = opposite && i < begin;
                 SymmetricPair pair{wave(i), wave(i), sign(negative), 0, &folded_(fraction, i, 0)};
-                if (again == i || again == n) {
+                if (mirrored == i || mirrored == n) {
                     unpaired.push_back(pair);
                 } else {
-                    pair.second = wave(again);
-                    pair.sign_second = sign((opposite && again < begin) != opposite);
+                    pair.second = wave(mirrored);
+                    pair.sign_second = sign((opposite && mirrored < begin) != opposite);
                     pairs_[fraction].push_back(pair);
                 }
             }
@@ -219,15 +221,15 @@ void SlepianBasis::make_pairs() {
 }
 
 SlepianBasis::Weights SlepianBasis::weights(double frequency) const {
-    // Whole numbers, of at most some thousands.
+    // Integers of at most some thousands.
     const auto floored = [](std::int32_t a, std::int32_t b) { return (a < 0 ? a - b + 1 : a) / b; };
     const auto n = static_cast<std::int32_t>(samples_);
     constexpr auto parts = static_cast<std::int32_t>(fractions);
     const auto steps = static_cast<std::int32_t>(std::floor(frequency * parts + 0.5));
-    const std::int32_t whole = floored(steps, parts), turns = floored(whole, n);
+    const std::int32_t whole = floored(steps, parts), periods = floored(whole, n);
     const auto fraction = static_cast<std::size_t>(steps - whole * parts);
-    const auto first = static_cast<std::size_t>(whole - turns * n);
-    const bool opposite = samples_ % 2 == 0 && turns % 2 != 0;
+    const auto first = static_cast<std::size_t>(whole - periods * n);
+    const bool opposite = samples_ % 2 == 0 && periods % 2 != 0;
     const std::size_t count = count_[fraction];
     const auto period = static_cast<std::int32_t>(carriers_.extent(0));
     return {static_cast<double>(steps) / parts,

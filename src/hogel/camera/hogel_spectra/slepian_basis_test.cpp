@@ -65,7 +65,7 @@ TEST_P(HogelBasisOfSize, sends_the_light_of_the_samples_into_the_pupil) {
                         sample += turn * double(weights.sign) * double(weights.first[k * weights.stride + m]) *
                                   double(basis.spread()(b, k));
                     }
-                    spread += sample * phasor(-kappa * basis.place(b));
+                    spread += sample * phasor(-kappa * basis.position(b));
                 }
                 // A sample of the band stands for n / per_hogel samples of the hogel.
                 spread *= static_cast<double>(n) / static_cast<double>(per_hogel);
@@ -121,7 +121,7 @@ TEST(SlepianBasis, has_carriers_that_are_waves_of_their_frequency) {
         for (const double frequency : {0.0, 0.5, -0.5, 3.5, -77.0, 1000.5}) {
             const SlepianBasis::Weights weights = basis.weights(frequency);
             for (std::size_t node = 0; node < basis.nodes(); ++node) {
-                const double angle = -2 * std::numbers::pi * frequency * basis.place(node);
+                const double angle = -2 * std::numbers::pi * frequency * basis.position(node);
                 EXPECT_NEAR(weights.carrier[node], std::cos(angle), 1e-6) << frequency << " " << node;
                 EXPECT_NEAR(weights.carrier[padded(basis.nodes()) + node], std::sin(angle), 1e-6) << frequency;
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of spread_line.cpp, compiled for every SIMD target and chosen when first called.
+// Vector twins of spread_line.cpp, compiled for every SIMD target and chosen when first called.
 #include <algorithm>
 #include <vector>
 
@@ -53,15 +53,15 @@ void SpreadLine(const SlepianBasis& down, const float* carrier, const float* lin
     }
 }
 
-// Adds numbers to some of a row of a band, from `x` on.
-HWY_INLINE void add_some(V re, V im, std::size_t x, std::size_t columns, math::PackedComplex* band) {
+// Adds a vector of numbers, cut at the last column, to a row of a band from column `x` on.
+HWY_INLINE void add_vector(V re, V im, std::size_t x, std::size_t columns, math::PackedComplex* band) {
     const D d;
     math::PackedComplex* to = band + x / lanes * camera::PackedBand::square + x % lanes;
     if (columns - x >= hn::Lanes(d)) return add_to_packed(d, re, im, to);
-    math::PackedComplex rest[lanes];
-    std::copy_n(to, columns - x, rest);
-    add_to_packed(d, re, im, rest);
-    std::copy_n(rest, columns - x, to);
+    math::PackedComplex tail[lanes];
+    std::copy_n(to, columns - x, tail);
+    add_to_packed(d, re, im, tail);
+    std::copy_n(tail, columns - x, to);
 }
 
 void AddDemodulated(const LightRow& row, std::size_t columns, math::PackedComplex* band) {
@@ -69,7 +69,7 @@ void AddDemodulated(const LightRow& row, std::size_t columns, math::PackedComple
     for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
         const V a = hn::Load(d, row.light + x), b = hn::Load(d, row.light + row.light_row + x);
         const V c = hn::Load(d, row.phases + x), s = hn::Load(d, row.phases + row.phase_row + x);
-        add_some(hn::NegMulAdd(b, s, hn::Mul(a, c)), hn::MulAdd(b, c, hn::Mul(a, s)), x, columns, band);
+        add_vector(hn::NegMulAdd(b, s, hn::Mul(a, c)), hn::MulAdd(b, c, hn::Mul(a, s)), x, columns, band);
     }
 }
 
@@ -77,26 +77,27 @@ void AddDemodulatedLooks(const LightRow& row, std::size_t columns, std::span<mat
     const D d;
     const std::size_t across = padded(columns), look_row = 2 * across;
     const core::ThreadBuffer<float> scratch(2 * lanes * lanes + lanes * look_row);
-    float *some = scratch.data(), *turned = some + 2 * lanes * lanes;  // [part][column][look], [look][part][column]
+    float *demodulated = scratch.data(),
+          *transposed = demodulated + 2 * lanes * lanes;  // [part][column][look], [look][part][column]
     for (std::size_t first = 0; first < across; first += lanes) {
         for (std::size_t x = 0; x < lanes && first + x < columns; ++x) {
             const float *light = row.light + (first + x) * lanes, *phase = row.phases + first + x;
             const V c = hn::Set(d, phase[0]), s = hn::Set(d, phase[row.phase_row]);
             for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
                 const V a = hn::Load(d, light + i), b = hn::Load(d, light + row.light_row + i);
-                hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, some + x * lanes + i);
-                hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, some + (lanes + x) * lanes + i);
+                hn::Store(hn::NegMulAdd(b, s, hn::Mul(a, c)), d, demodulated + x * lanes + i);
+                hn::Store(hn::MulAdd(b, c, hn::Mul(a, s)), d, demodulated + (lanes + x) * lanes + i);
             }
         }
         for (std::size_t part = 0; part < 2; ++part)
-            transpose_sixteen([&](std::size_t x) { return some + (part * lanes + x) * lanes; }, lanes,
-                              [&](std::size_t look) { return turned + look * look_row + part * across + first; });
+            transpose_sixteen([&](std::size_t x) { return demodulated + (part * lanes + x) * lanes; }, lanes,
+                              [&](std::size_t look) { return transposed + look * look_row + part * across + first; });
     }
     for (std::size_t look = 0; look < bands.size(); ++look)
         for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
-            const float* own = turned + look * look_row + x;
+            const float* source = transposed + look * look_row + x;
             __builtin_prefetch(bands[look] + x / lanes * camera::PackedBand::square + x % lanes + lanes);
-            add_some(hn::Load(d, own), hn::Load(d, own + across), x, columns, bands[look]);
+            add_vector(hn::Load(d, source), hn::Load(d, source + across), x, columns, bands[look]);
         }
 }
 #endif

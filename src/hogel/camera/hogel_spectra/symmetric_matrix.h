@@ -13,7 +13,7 @@ struct Eigensystem {
     Array<double, 2> vectors;
 };
 
-/// By Jacobi's rotations: for matrices of a hundred rows at most.
+/// Computes the eigensystem by Jacobi rotations, for matrices of at most a hundred rows.
 Eigensystem eigensystem(Array<double, 2> matrix);
 
 }  // namespace hogel::camera::hogel_spectra

@@ -339,10 +339,10 @@ void add(const Contribution& part, std::size_t look, Array<Complex, 2>& band) {
 
 }  // namespace
 
-std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
-                                                                          std::span<const NarrowBand> eyes,
-                                                                          std::size_t first_look, std::size_t looks,
-                                                                          const Progress& progress) {
+std::vector<std::vector<Array<std::complex<float>, 2>>> compute_narrow_bands(const FieldSource& hologram,
+                                                                             std::span<const NarrowBand> eyes,
+                                                                             std::size_t first_look, std::size_t looks,
+                                                                             const Progress& progress) {
     const Grid& plane = hologram.grid().plane;
     const std::vector<std::vector<std::size_t>> groups = groups_of(eyes, plane);
     std::vector<std::vector<Array<Complex, 2>>> bands(eyes.size());

@@ -35,9 +35,9 @@ struct NarrowBand : BandGrid {
 /// it. Returns bands[eye][look][row][column], the demodulated and low-passed field, which does not depend on the number
 /// of threads. In a team the first process alone has them. Memory: the result,
 /// and per thread a strip of the hologram of at most eight tiles across and two down.
-std::vector<std::vector<Array<std::complex<float>, 2>>> draw_narrow_bands(const FieldSource& hologram,
-                                                                          std::span<const NarrowBand> eyes,
-                                                                          std::size_t first_look, std::size_t looks,
-                                                                          const Progress& progress = {});
+std::vector<std::vector<Array<std::complex<float>, 2>>> compute_narrow_bands(const FieldSource& hologram,
+                                                                             std::span<const NarrowBand> eyes,
+                                                                             std::size_t first_look, std::size_t looks,
+                                                                             const Progress& progress = {});
 
 }  // namespace hogel::camera::narrow_band

@@ -46,7 +46,7 @@ TEST(NarrowBand, a_wave_converging_on_the_eye_becomes_one) {
     std::vector<NarrowBand> bands;
     for (const Vec3& eye : eyes) bands.emplace_back(grid, eye, 3_mm);
     for (std::size_t e = 0; e < eyes.size(); ++e) {
-        const auto drawn = draw_narrow_bands(converging(grid, eyes[e]), bands, 0, 1);
+        const auto drawn = compute_narrow_bands(converging(grid, eyes[e]), bands, 0, 1);
         EXPECT_LT(deviation(bands[e], drawn[e][0]), 5e-4) << e;
     }
 }
@@ -54,9 +54,9 @@ TEST(NarrowBand, a_wave_converging_on_the_eye_becomes_one) {
 TEST(NarrowBand, is_the_same_for_any_number_of_threads) {
     const Field field = converging(grid, {1e-3, 2e-3, 0.09});
     const NarrowBand band(grid, {0, 0, 0.1}, 3_mm);
-    const auto all = draw_narrow_bands(field, std::span(&band, 1), 0, 1);
+    const auto all = compute_narrow_bands(field, std::span(&band, 1), 0, 1);
     const ThreadLimit one(1);
-    const auto alone = draw_narrow_bands(field, std::span(&band, 1), 0, 1);
+    const auto alone = compute_narrow_bands(field, std::span(&band, 1), 0, 1);
     EXPECT_TRUE(std::ranges::equal(all[0][0].elements(), alone[0][0].elements()));
 }
 
@@ -95,10 +95,10 @@ TEST(NarrowBand, of_a_large_hologram_makes_most_hogels_once) {
     const Vec3 eye{1_mm, 0, 0.1};
     const Hogels hogels(9000, 250, eye), samples(9000, 1, eye);
     const NarrowBand band(hogels.grid(), eye, 3_mm);
-    const auto drawn = draw_narrow_bands(hogels, std::span(&band, 1), 0, 1);
+    const auto drawn = compute_narrow_bands(hogels, std::span(&band, 1), 0, 1);
     EXPECT_LT(deviation(band, drawn[0][0]), 5e-4);
     EXPECT_LT(hogels.times_made(), 1.7);
-    const auto of_samples = draw_narrow_bands(samples, std::span(&band, 1), 0, 1);
+    const auto of_samples = compute_narrow_bands(samples, std::span(&band, 1), 0, 1);
     EXPECT_EQ(samples.times_made(), 1);
     EXPECT_TRUE(std::ranges::equal(drawn[0][0].elements(), of_samples[0][0].elements()));
 }

@@ -47,8 +47,8 @@ HogelBlock block_of(View<const float, 5> radiance, std::size_t s0, std::size_t t
     return block;
 }
 
-HeldHogels hold(const LightFieldSource& face, const HogelRange& range) {
-    HeldHogels held;
+LoadedHogels hold(const LightFieldSource& face, const HogelRange& range) {
+    LoadedHogels held;
     if (const View<const float, 5> all = face.in_memory(); all.size() > 0) {
         held.block = block_of(all, 0, 0, range);
         return held;

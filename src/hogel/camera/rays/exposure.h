@@ -27,11 +27,11 @@ struct HogelBlock {
 HogelBlock block_of(View<const float, 5> radiance, std::size_t s0, std::size_t t0, const HogelRange& range);
 
 /// A range of hogels of a face, read into a tile of its own unless the face is in memory.
-struct HeldHogels {
+struct LoadedHogels {
     LightFieldTile tile;
     HogelBlock block;
 };
-HeldHogels hold(const LightFieldSource& face, const HogelRange& range);
+LoadedHogels hold(const LightFieldSource& face, const HogelRange& range);
 
 /// The samples [v][u][c][t][s] of a front: for each direction the view that all hogels show there, floats or halves.
 /// Neighbouring hogels, of which an eye sees nearly the same direction, are side by side.

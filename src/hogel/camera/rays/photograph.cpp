@@ -18,7 +18,7 @@ namespace {
 
 using camera::rays::Block;
 using camera::rays::Exposure;
-using camera::rays::HeldHogels;
+using camera::rays::LoadedHogels;
 
 struct FaceBlock {
     std::size_t face;
@@ -31,10 +31,10 @@ void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock
             std::span<camera::rays::Exposure> exposures, const Progress& progress) {
     for (camera::rays::Exposure& exposure : exposures)
         exposure.keep_rays(camera::rays::max_kept_rays / exposures.size());
-    work::local_ordered_reduce<camera::rays::HeldHogels>(
+    work::local_ordered_reduce<camera::rays::LoadedHogels>(
         list.size(), blocks_at_once,
         [&](std::size_t i) { return camera::rays::hold(*faces[list[i].face], list[i].block.hogels); },
-        [&](std::size_t i, camera::rays::HeldHogels& held) {
+        [&](std::size_t i, camera::rays::LoadedHogels& held) {
             const auto& [face, block] = list[i];
             for (camera::rays::Exposure& exposure : exposures) exposure.add(face, held.block, block.cells);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(list.size()));

@@ -58,13 +58,13 @@ std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource&
     };
     const HogelRange tile = source.preferred_tile();
     const std::size_t across = (grid.hogels_s + tile.ns - 1) / tile.ns, down = (grid.hogels_t + tile.nt - 1) / tile.nt;
-    work::local_ordered_reduce<HeldHogels>(
+    work::local_ordered_reduce<LoadedHogels>(
         across * down, thread_count(),
         [&](std::size_t i) {
             const std::size_t s = i % across * tile.ns, t = i / across * tile.nt;
             return hold(source, {s, t, std::min(tile.ns, grid.hogels_s - s), std::min(tile.nt, grid.hogels_t - t)});
         },
-        [&](std::size_t i, HeldHogels& held) {
+        [&](std::size_t i, LoadedHogels& held) {
             put(held.block);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(across * down));
         });
