@@ -6,13 +6,14 @@
 
 namespace hogel::camera::narrow_band {
 
-/// The sampling of one eye's narrow band of a hologram.
+/// Sampling of a viewpoint's narrow band of a hologram.
 ///
 /// Light from the hologram point x that enters a pupil of diameter A around c has, after multiplication by
-/// e^{+ik|x−c|}, a frequency of at most A/(2λr) (docs/notation.md section 4; r the distance). So few samples hold it.
+/// e^{+ik|x−c|}, a frequency of at most A/(2λr), with the distance r (docs/notation.md section 4). So few samples
+/// represent it.
 struct BandGrid {
     ViewGeometry geometry;
-    Grid plane;  ///< samples of the band; extends beyond the hologram by the half width of a kernel
+    Grid plane;  ///< samples of the band, which extends beyond the hologram by half the width of a kernel
 };
 
 }  // namespace hogel::camera::narrow_band

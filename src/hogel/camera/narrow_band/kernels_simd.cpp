@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of kernels.cpp, compiled for every SIMD target and chosen when first called.
+// Vector twins of kernels.cpp, compiled for every SIMD target and chosen when first called.
 #include <algorithm>
 #include <vector>
 
@@ -15,9 +15,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 // A vector of one lane cannot hold a complex number.
-void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& decimation, std::complex<float>* out,
                       std::size_t out_stride, std::size_t count) {
-    decimated_columns_plain(rows, how, out, out_stride, count);
+    decimated_columns_plain(rows, decimation, out, out_stride, count);
 }
 
 void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out) { path_phases_plain(paths, out); }
@@ -28,21 +28,21 @@ void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<
 }
 
 #else
-// Complex numbers are pairs of lanes. The sum of complex weights w times complex vectors z is accumulated as two real
-// sums, a = Σ re(w)·z and b = Σ im(w)·z; swapping b's lanes and negating one of them is done once, at the end.
+// Complex numbers are pairs of lanes. The sum of complex weights w times complex vectors z accumulates as two real
+// sums, a = Σ re(w)·z and b = Σ im(w)·z. Swapping b's lanes and negating one of them follows once, at the end.
 template <class D, class V>
 HWY_INLINE V join(D d, V a, V b) {
     const V sign = hn::OddEven(hn::Set(d, 1.0f), hn::Set(d, -1.0f));
     return hn::MulAdd(sign, hn::Shuffle2301(b), a);
 }
 
-// The maximum number of outputs to which one row contributes, as many as LowPass is wide.
+// Maximum number of outputs to which one row contributes: the width of LowPass.
 constexpr std::size_t max_outputs = 9;
 
-// Decimates `vectors` vectors of columns. Rows are taken one after the other; each is multiplied by its phase and added
-// to the outputs that it contributes to, which stay in registers. After `step` rows the first output is complete.
+// Decimates `vectors` vectors of columns. Each row in turn is multiplied by its phase and added to its outputs, which
+// stay in registers. After `step` rows the first output is complete.
 template <std::size_t vectors>
-HWY_INLINE void columns_block(const float* rows, const ColumnDecimation& how, const float* by_row, float* out,
+HWY_INLINE void columns_block(const float* rows, const ColumnDecimation& decimation, const float* by_row, float* out,
                               std::size_t out_stride, std::size_t count) {
     const hn::ScalableTag<float> d;
     const std::size_t lanes = hn::Lanes(d);
@@ -50,17 +50,17 @@ HWY_INLINE void columns_block(const float* rows, const ColumnDecimation& how, co
     V sums[max_outputs][vectors];
     for (auto& sum : sums)
         for (V& part : sum) part = hn::Zero(d);
-    const auto height = static_cast<std::ptrdiff_t>(how.phases.size());
-    const auto step = static_cast<std::ptrdiff_t>(how.step);
-    // Rows that only outputs before the first need are skipped with it.
+    const auto height = static_cast<std::ptrdiff_t>(decimation.phases.size());
+    const auto step = static_cast<std::ptrdiff_t>(decimation.step);
+    // Rows that contribute only to outputs before the first are skipped with it.
     const std::ptrdiff_t groups = static_cast<std::ptrdiff_t>(count + max_outputs) - 1;
     for (std::ptrdiff_t g = 0; g < groups; ++g) {
-        const std::ptrdiff_t from = how.first + g * step;
+        const std::ptrdiff_t from = decimation.first + g * step;
         for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(from, 0); r < std::min(from + step, height); ++r) {
             const float* taps = by_row + static_cast<std::size_t>(r - from) * max_outputs;
-            const std::complex<float> phase = how.phases[static_cast<std::size_t>(r)];
+            const std::complex<float> phase = decimation.phases[static_cast<std::size_t>(r)];
             const V re = hn::Set(d, phase.real()), im = hn::Set(d, phase.imag());
-            const float* row = rows + 2 * static_cast<std::size_t>(r) * how.stride;
+            const float* row = rows + 2 * static_cast<std::size_t>(r) * decimation.stride;
             V z[vectors];
             for (std::size_t i = 0; i < vectors; ++i) {
                 const V value = hn::LoadU(d, row + i * lanes);
@@ -82,27 +82,29 @@ HWY_INLINE void columns_block(const float* rows, const ColumnDecimation& how, co
     }
 }
 
-void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& how, std::complex<float>* out,
+void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& decimation, std::complex<float>* out,
                       std::size_t out_stride, std::size_t count) {
-    if (how.taps.size() > max_outputs * how.step) return decimated_columns_plain(rows, how, out, out_stride, count);
+    if (decimation.taps.size() > max_outputs * decimation.step)
+        return decimated_columns_plain(rows, decimation, out, out_stride, count);
     // Row j of a group of `step` rows is tap j + (max_outputs − 1 − t)·step of output t, counted from the oldest.
-    std::vector<float> by_row(how.step * max_outputs);
-    for (std::size_t j = 0; j < how.step; ++j)
+    std::vector<float> by_row(decimation.step * max_outputs);
+    for (std::size_t j = 0; j < decimation.step; ++j)
         for (std::size_t t = 0; t < max_outputs; ++t) {
-            const std::size_t k = j + (max_outputs - 1 - t) * how.step;
-            if (k < how.taps.size()) by_row[j * max_outputs + t] = how.taps[k];
+            const std::size_t k = j + (max_outputs - 1 - t) * decimation.step;
+            if (k < decimation.taps.size()) by_row[j * max_outputs + t] = decimation.taps[k];
         }
-    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>()), floats = 2 * how.width;
+    const std::size_t lanes = hn::Lanes(hn::ScalableTag<float>()), floats = 2 * decimation.width;
     const auto* in = reinterpret_cast<const float*>(rows);
     auto* to = reinterpret_cast<float*>(out);
     std::size_t x = 0;
-    // Two vectors where there are registers for them.
+    // Two vectors where registers suffice.
     if constexpr (HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86)
         for (; x + 2 * lanes <= floats; x += 2 * lanes)
-            columns_block<2>(in + x, how, by_row.data(), to + x, out_stride, count);
-    for (; x + lanes <= floats; x += lanes) columns_block<1>(in + x, how, by_row.data(), to + x, out_stride, count);
+            columns_block<2>(in + x, decimation, by_row.data(), to + x, out_stride, count);
+    for (; x + lanes <= floats; x += lanes)
+        columns_block<1>(in + x, decimation, by_row.data(), to + x, out_stride, count);
     if (x == floats) return;
-    ColumnDecimation rest = how;
+    ColumnDecimation rest = decimation;
     rest.width = (floats - x) / 2;
     decimated_columns_plain(rows + x / 2, rest, out + x / 2, out_stride, count);
 }
@@ -118,7 +120,7 @@ void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out)
         const auto x = hn::MulAdd(hn::Add(steps, hn::Set(dd, static_cast<double>(i))), hn::Set(dd, paths.pitch),
                                   hn::Set(dd, paths.first));
         const auto cycles =
-            hn::MulSub(hn::Sqrt(hn::MulAdd(x, x, hn::Set(dd, paths.square))), frequency, hn::Set(dd, paths.off));
+            hn::MulSub(hn::Sqrt(hn::MulAdd(x, x, hn::Set(dd, paths.square))), frequency, hn::Set(dd, paths.offset));
         hn::Vec<decltype(df)> cosine, sine;
         camera::HWY_NAMESPACE::unit_phasors(dd, cycles, cosine, sine);
         hn::StoreInterleaved2(cosine, sine, df, reinterpret_cast<float*>(&out[i]));

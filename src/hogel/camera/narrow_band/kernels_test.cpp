@@ -34,10 +34,11 @@ TEST_P(NarrowBandKernels, vector_and_plain_columns_agree) {
             for (const Complex& value : noise(taps)) weights.push_back(value.real());
             for (std::size_t width = 0; width <= 40; ++width) {
                 const std::size_t count = (rows + taps) / step;
-                const ColumnDecimation how{width, stride, step, 3 - static_cast<std::ptrdiff_t>(taps), weights, phases};
+                const ColumnDecimation decimation{width,   stride, step, 3 - static_cast<std::ptrdiff_t>(taps),
+                                                  weights, phases};
                 std::vector<Complex> fast(count * 41), plain(count * 41);
-                decimated_columns(&tile[1], how, fast.data(), 41, count);
-                decimated_columns_plain(&tile[1], how, plain.data(), 41, count);
+                decimated_columns(&tile[1], decimation, fast.data(), 41, count);
+                decimated_columns_plain(&tile[1], decimation, plain.data(), 41, count);
                 for (std::size_t i = 0; i < fast.size(); ++i)
                     ASSERT_LT(std::abs(fast[i] - plain[i]), 2e-5f) << step << ' ' << taps << ' ' << width << ' ' << i;
             }

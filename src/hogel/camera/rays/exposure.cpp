@@ -16,21 +16,22 @@
 namespace hogel::camera::rays {
 namespace {
 
-// Number of values, for each thread, that points of the lens see of one block at a time: they stay in the second cache
-// until pixels are exposed to them. But so many points look at once, as long as they see no more than 64 MiB, because
-// every hogel is on a page of its own, to be found again for the next points.
-constexpr std::size_t samples_per_batch = std::size_t{1} << 16, points_at_once = 64, max_seen = std::size_t{1} << 24;
+// Values per thread that lens points sample from one block at a time, which stay in the second-level cache until the
+// pixels are exposed. A batch has at least this many points unless their samples exceed 64 MiB: every hogel is on a
+// page of its own, which the next batch must find again.
+constexpr std::size_t samples_per_batch = std::size_t{1} << 16, min_points_per_batch = 64,
+                      max_batch_samples = std::size_t{1} << 24;
 
-// Hogels of a row that all points of the lens look at before the next: what is read of them stays in the first cache.
+// Hogels of a row that all lens points sample before the next ones; their samples stay in the first-level cache.
 constexpr std::size_t hogels_per_batch = 32;
 
-constexpr std::pair<std::size_t, std::size_t> nothing{0, 0};
+constexpr std::pair<std::size_t, std::size_t> empty_range{0, 0};
 
 double van_der_corput(std::size_t i, std::size_t base) {
-    double value = 0, place = 1;
+    double value = 0, digit_value = 1;
     for (; i > 0; i /= base) {
-        place /= static_cast<double>(base);
-        value += place * static_cast<double>(i % base);
+        digit_value /= static_cast<double>(base);
+        value += digit_value * static_cast<double>(i % base);
     }
     return value;
 }
@@ -47,20 +48,20 @@ HogelBlock block_of(View<const float, 5> radiance, std::size_t s0, std::size_t t
     return block;
 }
 
-LoadedHogels hold(const LightFieldSource& face, const HogelRange& range) {
-    LoadedHogels held;
-    if (const View<const float, 5> all = face.in_memory(); all.size() > 0) {
-        held.block = block_of(all, 0, 0, range);
-        return held;
+LoadedHogels load_hogels(const LightFieldSource& face, const HogelRange& range) {
+    LoadedHogels loaded;
+    if (const View<const float, 5> whole = face.in_memory(); whole.size() > 0) {
+        loaded.block = block_of(whole, 0, 0, range);
+        return loaded;
     }
-    held.tile = LightFieldTile(face.grid(), range, false);
-    face.read(held.tile);
-    held.block = block_of(held.tile.radiance, range.s0, range.t0, range);
-    return held;
+    loaded.tile = LightFieldTile(face.grid(), range, false);
+    face.read(loaded.tile);
+    loaded.block = block_of(loaded.tile.radiance, range.s0, range.t0, range);
+    return loaded;
 }
 
-// Points spread evenly over the pupil's disc (Halton sequence, mapped by equal areas), each with its own position in
-// the pixel, so that one set of rays averages over both the pupil and the pixel's area.
+// Returns points spread evenly over the pupil's disc (Halton sequence, mapped by equal areas). Each has its own
+// position in the pixel, so that one set of rays averages over both the pupil and the pixel's area.
 std::vector<Exposure::LensPoint> Exposure::lens_points(double pupil, std::size_t count) {
     std::vector<LensPoint> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -73,20 +74,21 @@ std::vector<Exposure::LensPoint> Exposure::lens_points(double pupil, std::size_t
     return points;
 }
 
-Exposure::Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count, Looking looking)
+Exposure::Exposure(std::vector<LightFieldGrid> faces, const Camera& camera, std::size_t lens_count,
+                   Implementation implementation)
     : faces_(std::move(faces)),
       grid_(faces_.front()),
       camera_(camera),
-      vectors_(looking == Looking::fast && is_separable(grid_)),
+      uses_vectors_(implementation == Implementation::fast && is_separable(grid_)),
       points_(lens_points(camera.pupil, lens_count)),
       film_({grid_.channels, camera.picture.height, camera.picture.width}) {}
 
-std::pair<std::size_t, std::size_t> Exposure::Run::within(std::size_t first, std::size_t last) const {
+std::pair<std::size_t, std::size_t> Exposure::Run::intersect(std::size_t first, std::size_t last) const {
     const std::size_t from = std::clamp(begin, first, last);
     return {from, std::clamp(end, from, last)};
 }
 
-std::pair<std::size_t, std::size_t> Exposure::Run::between(std::size_t first, std::size_t count) const {
+std::pair<std::size_t, std::size_t> Exposure::Run::interpolated_from(std::size_t first, std::size_t count) const {
     const auto from = low.begin() + static_cast<std::ptrdiff_t>(begin),
                to = low.begin() + static_cast<std::ptrdiff_t>(end);
     const auto below = [](std::int32_t place, std::size_t bound) { return static_cast<std::size_t>(place) < bound; };
@@ -96,17 +98,17 @@ std::pair<std::size_t, std::size_t> Exposure::Run::between(std::size_t first, st
 }
 
 template <class Index>
-Exposure::Run Exposure::run(std::size_t places, std::size_t samples, const Index& index) {
-    Run run{places, 0, samples > 1 ? std::size_t{1} : 0, std::vector<std::int32_t>(places), std::vector<float>(places)};
-    for (std::size_t i = 0; i < places; ++i) {
-        const lightfield::Interpolation place(index(i), samples);
-        if (place.outside) continue;
-        run.begin = std::min(run.begin, i);
-        run.end = i + 1;
-        run.low[i] = static_cast<std::int32_t>(place.low);
-        run.high_weight[i] = place.high_weight;
+Exposure::Run Exposure::make_run(std::size_t count, std::size_t samples, const Index& index) {
+    Run result{count, 0, samples > 1 ? std::size_t{1} : 0, std::vector<std::int32_t>(count), std::vector<float>(count)};
+    for (std::size_t i = 0; i < count; ++i) {
+        const lightfield::Interpolation position(index(i), samples);
+        if (position.outside) continue;
+        result.begin = std::min(result.begin, i);
+        result.end = i + 1;
+        result.low[i] = static_cast<std::int32_t>(position.low);
+        result.high_weight[i] = position.high_weight;
     }
-    return run;
+    return result;
 }
 
 Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
@@ -117,21 +119,21 @@ Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
     // position plus a fraction of the lens point's offset.
     const double shift = 1 - R / (R + camera_.focus_depth);
     Rays rays;
-    if (vectors_) {
-        rays.columns_of_directions = run(grid.hogels_s, grid.directions_u, [&](std::size_t i) {
+    if (uses_vectors_) {
+        rays.columns_of_directions = make_run(grid.hogels_s, grid.directions_u, [&](std::size_t i) {
             const auto s = static_cast<double>(i);
             return grid.of_hogel(s, 0).column((grid.s(s) - lens_x) / R);
         });
-        rays.rows_of_directions = run(grid.hogels_t, grid.directions_v, [&](std::size_t j) {
+        rays.rows_of_directions = make_run(grid.hogels_t, grid.directions_v, [&](std::size_t j) {
             const auto t = static_cast<double>(j);
             return grid.of_hogel(0, t).row((grid.t(t) - lens_y) / R);
         });
     }
-    rays.columns_of_hogels = run(picture.width, grid.hogels_s, [&](std::size_t column) {
+    rays.columns_of_hogels = make_run(picture.width, grid.hogels_s, [&](std::size_t column) {
         const double x = picture.x(static_cast<double>(column) + point.pixel_x) + shift * point.x;
         return x / grid.pitch + 0.5 * static_cast<double>(grid.hogels_s) - 0.5;
     });
-    rays.rows_of_hogels = run(picture.height, grid.hogels_t, [&](std::size_t row) {
+    rays.rows_of_hogels = make_run(picture.height, grid.hogels_t, [&](std::size_t row) {
         const double y = picture.y(static_cast<double>(row) + point.pixel_y) + shift * point.y;
         return 0.5 * static_cast<double>(grid.hogels_t) - 0.5 - y / grid.pitch;
     });
@@ -139,13 +141,13 @@ Exposure::Rays Exposure::rays_of(const LensPoint& point) const {
 }
 
 std::size_t bytes_of_rays(const LightFieldGrid& grid, const Camera& camera) {
-    const std::size_t places = camera.picture.width + camera.picture.height + grid.hogels_s + grid.hogels_t;
-    return places * (sizeof(std::int32_t) + sizeof(float));
+    const std::size_t positions = camera.picture.width + camera.picture.height + grid.hogels_s + grid.hogels_t;
+    return positions * (sizeof(std::int32_t) + sizeof(float));
 }
 
 void Exposure::prepare(std::size_t first, std::size_t count) {
-    const bool all = points_.size() * bytes_of_rays(grid_, camera_) <= max_kept_;
-    const std::size_t begin = all ? 0 : first, size = all ? points_.size() : count;
+    const bool all_points = points_.size() * bytes_of_rays(grid_, camera_) <= max_cached_;
+    const std::size_t begin = all_points ? 0 : first, size = all_points ? points_.size() : count;
     if (first_prepared_ != begin || prepared_.size() != size) {
         first_prepared_ = begin;
         prepared_.resize(size);
@@ -155,61 +157,64 @@ void Exposure::prepare(std::size_t first, std::size_t count) {
     rays_ = std::span(prepared_).subspan(first - begin, count);
 }
 
-template <class Look>
-void Exposure::add_points(const HogelRange& range, const HogelRange& cells, const Look& look) {
-    const std::size_t seen_by_one = range.nt * grid_.channels * range.ns;
-    const std::size_t few = std::min(points_at_once, std::max<std::size_t>(max_seen / seen_by_one, 1)),
-                      together =
-                          std::min(std::max(thread_count() * samples_per_batch / seen_by_one, few), points_.size());
-    for (std::size_t first = 0; first < points_.size(); first += together) {
-        const std::size_t count = std::min(together, points_.size() - first);
+template <class Sampler>
+void Exposure::add_points(const HogelRange& range, const HogelRange& cells, const Sampler& sampler) {
+    const std::size_t samples_per_point = range.nt * grid_.channels * range.ns;
+    const std::size_t min_points = std::min(min_points_per_batch,
+                                            std::max<std::size_t>(max_batch_samples / samples_per_point, 1)),
+                      points_per_batch = std::min(
+                          std::max(thread_count() * samples_per_batch / samples_per_point, min_points), points_.size());
+    for (std::size_t first = 0; first < points_.size(); first += points_per_batch) {
+        const std::size_t count = std::min(points_per_batch, points_.size() - first);
         prepare(first, count);
-        if (seen_.size() < count * seen_by_one) seen_.resize(count * seen_by_one);
-        const View<float, 4> seen(seen_.data(), {count, range.nt, grid_.channels, range.ns});
-        look(seen);
-        std::size_t top = camera_.picture.height, bottom = 0;  // of the pixels that any ray reaches from these cells
+        if (samples_.size() < count * samples_per_point) samples_.resize(count * samples_per_point);
+        const View<float, 4> samples(samples_.data(), {count, range.nt, grid_.channels, range.ns});
+        sampler(samples);
+        std::size_t top = camera_.picture.height, bottom = 0;  // rows of pixels that rays from these cells reach
         for (const Rays& rays : rays_) {
-            const auto [begin, end] = rays.rows_of_hogels.between(cells.t0, cells.nt);
+            const auto [begin, end] = rays.rows_of_hogels.interpolated_from(cells.t0, cells.nt);
             if (begin == end) continue;
             top = std::min(top, begin);
             bottom = std::max(bottom, end);
         }
         if (top < bottom)
-            work::parallel_for(bottom - top, [&](std::size_t row) { expose_row(top + row, range, cells, seen); });
+            work::parallel_for(bottom - top, [&](std::size_t row) { expose_row(top + row, range, cells, samples); });
     }
 }
 
 void Exposure::add(std::size_t face, const HogelBlock& block, const HogelRange& cells) {
-    add_points(block.range, cells, [&](View<float, 4> seen) {
-        if (face == 0 && vectors_)
-            work::parallel_for(block.range.nt, [&](std::size_t t) { look_along_row(block, t, seen); });
+    add_points(block.range, cells, [&](View<float, 4> samples) {
+        if (face == 0 && uses_vectors_)
+            work::parallel_for(block.range.nt, [&](std::size_t t) { sample_row(block, t, samples); });
         else
-            work::parallel_for(rays_.size(), [&](std::size_t i) { look(face, block, points_[first_ + i], seen[i]); });
+            work::parallel_for(rays_.size(),
+                               [&](std::size_t i) { sample_hogels(face, block, points_[first_ + i], samples[i]); });
     });
 }
 
 void Exposure::add(const Views<float>& views, const HogelRange& hogels, const HogelRange& cells) {
-    add_points(hogels, cells, [&](View<float, 4> seen) {
-        work::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
+    add_points(hogels, cells, [&](View<float, 4> samples) {
+        work::parallel_for(hogels.nt, [&](std::size_t t) { sample_row(views, hogels, t, samples); });
     });
 }
 
 void Exposure::add(const Views<std::uint16_t>& views, const HogelRange& hogels, const HogelRange& cells) {
-    add_points(hogels, cells, [&](View<float, 4> seen) {
-        work::parallel_for(hogels.nt, [&](std::size_t t) { look_along_row(views, hogels, t, seen); });
+    add_points(hogels, cells, [&](View<float, 4> samples) {
+        work::parallel_for(hogels.nt, [&](std::size_t t) { sample_row(views, hogels, t, samples); });
     });
 }
 
-// Whether an earlier face has this direction: faces may overlap, and a direction belongs to the first one that has it.
-bool Exposure::shown_before(std::size_t face, Vec3 direction) const {
+// Whether an earlier face has this direction. Faces may overlap, and a direction belongs to the first face.
+bool Exposure::in_earlier_face(std::size_t face, Vec3 direction) const {
     return std::any_of(faces_.begin(), faces_.begin() + static_cast<std::ptrdiff_t>(face),
                        [&](const LightFieldGrid& earlier) { return earlier.covers(direction); });
 }
 
-void Exposure::look(std::size_t face, const HogelBlock& block, const LensPoint& point, View<float, 3> seen) const {
+void Exposure::sample_hogels(std::size_t face, const HogelBlock& block, const LensPoint& point,
+                             View<float, 3> samples) const {
     const LightFieldGrid& grid = faces_[face];
     const HogelRange& range = block.range;
-    std::ranges::fill(seen.elements(), 0.0f);
+    std::ranges::fill(samples.elements(), 0.0f);
     const double lens_x = camera_.eye.x + point.x, lens_y = camera_.eye.y + point.y, distance = camera_.eye.z;
     for (std::size_t t = 0; t < range.nt; ++t) {
         const double V = (grid.t(static_cast<double>(range.t0 + t)) - lens_y) / distance;
@@ -217,11 +222,11 @@ void Exposure::look(std::size_t face, const HogelBlock& block, const LensPoint& 
             const auto i = static_cast<double>(range.s0 + s), j = static_cast<double>(range.t0 + t);
             const double U = (grid.s(i) - lens_x) / distance;
             const Vec3 direction = to_face(grid.face(), {U, V, 1});
-            if (!(direction.z > 0) || shown_before(face, {U, V, 1})) continue;
+            if (!(direction.z > 0) || in_earlier_face(face, {U, V, 1})) continue;
             const double forward = grid.has_frequencies() ? length(direction) : direction.z;
-            const LightFieldGrid own = grid.of_hogel(i, j);  // with the directions of this hogel
-            const lightfield::Interpolation u(own.column(direction.x / forward), grid.directions_u);
-            const lightfield::Interpolation v(own.row(direction.y / forward), grid.directions_v);
+            const LightFieldGrid hogel_grid = grid.of_hogel(i, j);  // with the directions of this hogel
+            const lightfield::Interpolation u(hogel_grid.column(direction.x / forward), grid.directions_u);
+            const lightfield::Interpolation v(hogel_grid.row(direction.y / forward), grid.directions_v);
             if (u.outside || v.outside) continue;
             const std::size_t u1 = u.high(grid.directions_u), v1 = v.high(grid.directions_v);
             const float* hogel = block.radiance + t * block.row + s * block.hogel;
@@ -230,13 +235,13 @@ void Exposure::look(std::size_t face, const HogelBlock& block, const LensPoint& 
                                                       {grid.directions_v, grid.directions_u});
                 const float top = lightfield::mix(directions(v.low, u.low), directions(v.low, u1), u.high_weight);
                 const float bottom = lightfield::mix(directions(v1, u.low), directions(v1, u1), u.high_weight);
-                seen(t, c, s) = lightfield::mix(top, bottom, v.high_weight);
+                samples(t, c, s) = lightfield::mix(top, bottom, v.high_weight);
             }
         }
     }
 }
 
-void Exposure::look_along_row(const HogelBlock& block, std::size_t t, View<float, 4> seen) const {
+void Exposure::sample_row(const HogelBlock& block, std::size_t t, View<float, 4> samples) const {
     const HogelRange& range = block.range;
     const std::size_t row = range.t0 + t;
     for (std::size_t from = 0; from < range.ns; from += hogels_per_batch) {
@@ -244,10 +249,11 @@ void Exposure::look_along_row(const HogelBlock& block, std::size_t t, View<float
         for (std::size_t i = 0; i < rays_.size(); ++i) {
             const Run& columns = rays_[i].columns_of_directions;
             const Run& rows = rays_[i].rows_of_directions;
-            const auto [begin, end] = rows.has(row) ? columns.within(range.s0 + from, range.s0 + to) : nothing;
+            const auto [begin, end] =
+                rows.contains(row) ? columns.intersect(range.s0 + from, range.s0 + to) : empty_range;
             const auto v = static_cast<std::size_t>(rows.low[row]);
             for (std::size_t c = 0; c < grid_.channels; ++c) {
-                const std::span<float> values = seen[i][t][c].elements().subspan(from, to - from);
+                const std::span<float> values = samples[i][t][c].elements().subspan(from, to - from);
                 if (begin == end) {
                     std::ranges::fill(values, 0.0f);
                     continue;
@@ -256,35 +262,35 @@ void Exposure::look_along_row(const HogelBlock& block, std::size_t t, View<float
                 std::ranges::fill(values.first(first), 0.0f);
                 std::ranges::fill(values.subspan(last), 0.0f);
                 const float* hogel = block.radiance + c * block.channel + t * block.row + (from + first) * block.hogel;
-                look_between({hogel + v * grid_.directions_u, hogel + (v + rows.next) * grid_.directions_u, block.hogel,
-                              columns.next, rows.high_weight[row]},
-                             {std::span(columns.low).subspan(begin, end - begin),
-                              std::span(columns.high_weight).subspan(begin, end - begin)},
-                             values.subspan(first, last - first));
+                sample_between({hogel + v * grid_.directions_u, hogel + (v + rows.next) * grid_.directions_u,
+                                block.hogel, columns.next, rows.high_weight[row]},
+                               {std::span(columns.low).subspan(begin, end - begin),
+                                std::span(columns.high_weight).subspan(begin, end - begin)},
+                               values.subspan(first, last - first));
             }
         }
     }
 }
 
 template <class Sample>
-void Exposure::look_along_row(const Views<Sample>& views, const HogelRange& range, std::size_t t,
-                              View<float, 4> seen) const {
+void Exposure::sample_row(const Views<Sample>& views, const HogelRange& range, std::size_t t,
+                          View<float, 4> samples) const {
     const std::size_t row = range.t0 + t, view = grid_.channels * grid_.hogels();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Run& columns = rays_[i].columns_of_directions;
         const Run& rows = rays_[i].rows_of_directions;
-        const auto [begin, end] = rows.has(row) ? columns.within(range.s0, range.s0 + range.ns) : nothing;
+        const auto [begin, end] = rows.contains(row) ? columns.intersect(range.s0, range.s0 + range.ns) : empty_range;
         if (begin == end) {
-            std::ranges::fill(seen[i][t].elements(), 0.0f);
+            std::ranges::fill(samples[i][t].elements(), 0.0f);
             continue;
         }
         for (std::size_t c = 0; c < grid_.channels; ++c) {
-            const std::span<float> values = seen[i][t][c].elements();
+            const std::span<float> values = samples[i][t][c].elements();
             std::ranges::fill(values.first(begin - range.s0), 0.0f);
             std::ranges::fill(values.subspan(end - range.s0), 0.0f);
         }
         const auto v = static_cast<std::size_t>(rows.low[row]);
-        // Neighbours between the same columns of directions are looked at together.
+        // Samples neighbours between the same columns of directions together.
         for (std::size_t first = begin, last = begin; first < end; first = last) {
             const auto u = static_cast<std::size_t>(columns.low[first]);
             while (last < end && static_cast<std::size_t>(columns.low[last]) == u) ++last;
@@ -294,17 +300,17 @@ void Exposure::look_along_row(const Views<Sample>& views, const HogelRange& rang
                 const auto direction = [&](std::size_t down, std::size_t across) {
                     return views.samples + (down * grid_.directions_u + across) * view + at;
                 };
-                look_along({direction(v, u), direction(v, u + columns.next), direction(v + rows.next, u),
-                            direction(v + rows.next, u + columns.next)},
-                           weights, rows.high_weight[row],
-                           seen[i][t][c].elements().subspan(first - range.s0, last - first));
+                sample_along({direction(v, u), direction(v, u + columns.next), direction(v + rows.next, u),
+                              direction(v + rows.next, u + columns.next)},
+                             weights, rows.high_weight[row],
+                             samples[i][t][c].elements().subspan(first - range.s0, last - first));
             }
         }
     }
 }
 
 void Exposure::expose_row(std::size_t row, const HogelRange& range, const HogelRange& cells,
-                          View<const float, 4> seen) {
+                          View<const float, 4> samples) {
     const core::ThreadBuffer<float> line_buffer(range.ns);
     const core::ThreadBuffer<std::int32_t> low_buffer(camera_.picture.width);
     const std::span<float> line(line_buffer.data(), range.ns);
@@ -316,16 +322,16 @@ void Exposure::expose_row(std::size_t row, const HogelRange& range, const HogelR
         const auto t = static_cast<std::size_t>(rows.low[row]);
         if (t < cells.t0 || t >= cells.t0 + cells.nt) continue;
         const std::size_t t0 = t - range.t0, t1 = t0 + rows.next;
-        const auto [begin, end] = columns.between(cells.s0, cells.ns);
+        const auto [begin, end] = columns.interpolated_from(cells.s0, cells.ns);
         if (begin == end) continue;
-        // The hogels beside these pixels, from the first to the last.
+        // Range of hogels that these pixels interpolate.
         const std::size_t first = static_cast<std::size_t>(columns.low[begin]) - range.s0;
         const std::size_t last = static_cast<std::size_t>(columns.low[end - 1]) - range.s0 + columns.next;
-        const std::span<const std::int32_t> places = std::span(columns.low).subspan(begin, end - begin);
+        const std::span<const std::int32_t> columns_low = std::span(columns.low).subspan(begin, end - begin);
         const auto offset = static_cast<std::int32_t>(range.s0);
-        std::ranges::transform(places, low.begin(), [&](std::int32_t place) { return place - offset; });
+        std::ranges::transform(columns_low, low.begin(), [&](std::int32_t column_low) { return column_low - offset; });
         for (std::size_t c = 0; c < grid_.channels; ++c) {
-            const std::span<const float> top = seen[i][t0][c].elements(), bottom = seen[i][t1][c].elements();
+            const std::span<const float> top = samples[i][t0][c].elements(), bottom = samples[i][t1][c].elements();
             const std::size_t count = last - first + 1;
             mix_lines(top.subspan(first, count), bottom.subspan(first, count), rows.high_weight[row],
                       line.subspan(first, count));

@@ -50,8 +50,8 @@ TEST_P(RayKernels, look_between_directions_as_the_plain_twin_does) {
             const std::vector<std::int32_t> low = places(width, directions - 1);
             const HogelRows hogels{radiance.data() + directions, radiance.data() + 3 * directions, hogel, next, 0.3f};
             std::vector<float> fast(width, 7), plain(width, 7);
-            look_between(hogels, {low, weights}, fast);
-            look_between_plain(hogels, {low, weights}, plain);
+            sample_between(hogels, {low, weights}, fast);
+            sample_between_plain(hogels, {low, weights}, plain);
             ASSERT_EQ(fast, plain) << width;
         }
 }
@@ -64,11 +64,11 @@ TEST_P(RayKernels, look_along_hogels_as_the_plain_twin_does) {
         const std::vector<float> weights = noise(width);
         const auto four = [](const auto* at) { return FourDirections{at, at + 100, at + 200, at + 300}; };
         std::vector<float> fast(width, 7), plain(width, 7);
-        look_along(four(samples.data()), weights, 0.3f, fast);
-        look_along_plain(four(samples.data()), weights, 0.3f, plain);
+        sample_along(four(samples.data()), weights, 0.3f, fast);
+        sample_along_plain(four(samples.data()), weights, 0.3f, plain);
         ASSERT_EQ(fast, plain) << width;
-        look_along(four(halves.data()), weights, 0.3f, fast);
-        look_along_plain(four(halves.data()), weights, 0.3f, plain);
+        sample_along(four(halves.data()), weights, 0.3f, fast);
+        sample_along_plain(four(halves.data()), weights, 0.3f, plain);
         ASSERT_EQ(fast, plain) << width;
     }
 }
@@ -93,10 +93,10 @@ LightFieldBuffer noise_on(const LightFieldGrid& grid) {
     return light_field;
 }
 
-Image picture_of(const LightFieldBuffer& light_field, const Camera& camera, Looking looking,
+Image picture_of(const LightFieldBuffer& light_field, const Camera& camera, Implementation implementation,
                  std::size_t hogels_across) {
     const LightFieldGrid& grid = light_field.grid();
-    Exposure exposure({grid}, camera, 9, looking);
+    Exposure exposure({grid}, camera, 9, implementation);
     const std::size_t cells_s = std::max<std::size_t>(grid.hogels_s - 1, 1),
                       cells_t = std::max<std::size_t>(grid.hogels_t - 1, 1);
     for (std::size_t s = 0; s < cells_s; s += hogels_across) {
@@ -145,8 +145,9 @@ TEST_P(Exposures, are_the_same_ray_by_ray_and_by_vectors) {
         for (const double eye : {0.0, 4e-3, 6e-3})
             for (const std::size_t across : {60u, 17u}) {
                 const Camera camera = camera_at(eye);
-                expect_same(picture_of(light_field, camera, Looking::fast, across),
-                            picture_of(light_field, camera, Looking::plain, across), fmt::format("{} {}", i, eye));
+                expect_same(picture_of(light_field, camera, Implementation::fast, across),
+                            picture_of(light_field, camera, Implementation::plain, across),
+                            fmt::format("{} {}", i, eye));
             }
     }
 }

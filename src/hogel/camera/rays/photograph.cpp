@@ -25,18 +25,18 @@ struct FaceBlock {
     Block block;
 };
 
-// Exposes films to the rays of blocks of hogels, in their order. Reading may involve rendering, so several blocks are
-// read in parallel. What is in memory is looked at where it is.
+// Exposes films to the rays of blocks of hogels, in order. Several blocks are read in parallel, because reading may
+// involve rendering. Hogels in memory are not copied.
 void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock> list, std::size_t blocks_at_once,
             std::span<camera::rays::Exposure> exposures, const Progress& progress) {
     for (camera::rays::Exposure& exposure : exposures)
-        exposure.keep_rays(camera::rays::max_kept_rays / exposures.size());
+        exposure.cache_rays(camera::rays::max_cached_ray_bytes / exposures.size());
     work::local_ordered_reduce<camera::rays::LoadedHogels>(
         list.size(), blocks_at_once,
-        [&](std::size_t i) { return camera::rays::hold(*faces[list[i].face], list[i].block.hogels); },
-        [&](std::size_t i, camera::rays::LoadedHogels& held) {
+        [&](std::size_t i) { return camera::rays::load_hogels(*faces[list[i].face], list[i].block.hogels); },
+        [&](std::size_t i, camera::rays::LoadedHogels& loaded) {
             const auto& [face, block] = list[i];
-            for (camera::rays::Exposure& exposure : exposures) exposure.add(face, held.block, block.cells);
+            for (camera::rays::Exposure& exposure : exposures) exposure.add(face, loaded.block, block.cells);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(list.size()));
         });
 }
@@ -45,11 +45,12 @@ struct CameraRange {
     std::size_t first = 0, count = 0;
 };
 
-// Groups of the cameras, each of which one process photographs: one for each process of a team, because all cameras of
-// a group share the reading of hogels; but one where pictures are kept, for any number of processes.
+// Returns groups of cameras. One MPI rank photographs a group, which shares the reading of hogels, so there is a group
+// per rank. With a result log there is only one group, independent of the number of ranks.
 std::vector<CameraRange> groups_of(std::size_t cameras) {
-    const Communicator* const all = work::communicator_of_several();
-    const std::size_t groups = all == nullptr || work::result_log() != nullptr ? 1 : std::min(all->size(), cameras);
+    const Communicator* const communicator = work::communicator_of_several();
+    const std::size_t groups =
+        communicator == nullptr || work::result_log() != nullptr ? 1 : std::min(communicator->size(), cameras);
     std::vector<CameraRange> list;
     for (std::size_t i = 0; i < groups; ++i)
         list.push_back({i * cameras / groups, (i + 1) * cameras / groups - i * cameras / groups});
@@ -91,23 +92,24 @@ void photograph_into(const LightField& light_field, std::span<const Camera> came
             for (const Camera& camera : cameras.subspan(first, count))
                 exposures.emplace_back(grids, camera, lens_points);
             expose(faces, list, thread_count(), exposures, progress.part(i, groups.size()));
-            std::vector<Image> made(count);
+            std::vector<Image> group_pictures(count);
             for (std::size_t k = 0; k < count; ++k) {
-                made[k].pixels = std::move(pictures[first + k].pixels);  // whose memory is reused
-                exposures[k].develop(made[k]);
+                group_pictures[k].pixels = std::move(pictures[first + k].pixels);  // reuses its memory
+                exposures[k].develop(group_pictures[k]);
             }
-            return made;
+            return group_pictures;
         },
-        [&](std::size_t i, std::vector<Image>& made) {
-            for (std::size_t k = 0; k < made.size(); ++k)
-                pictures[groups[i].first + k].pixels = std::move(made[k].pixels);
+        [&](std::size_t i, std::vector<Image>& group_pictures) {
+            for (std::size_t k = 0; k < group_pictures.size(); ++k)
+                pictures[groups[i].first + k].pixels = std::move(group_pictures[k].pixels);
         });
-    Communicator* const all = work::communicator_of_several();
-    for (std::size_t i = 0; i < pictures.size() && all != nullptr; ++i) {
+    Communicator* const communicator = work::communicator_of_several();
+    for (std::size_t i = 0; i < pictures.size() && communicator != nullptr; ++i) {
         Array<float, 3>& pixels = pictures[i].pixels;
         const Grid& picture = cameras[i].picture;
-        if (!all->is_root()) pixels = Array<float, 3>({picture.height, picture.width, light_field.grid().channels});
-        work::broadcast_in_chunks<float>(*all, pixels.elements());
+        if (!communicator->is_root())
+            pixels = Array<float, 3>({picture.height, picture.width, light_field.grid().channels});
+        work::broadcast_in_chunks<float>(*communicator, pixels.elements());
     }
 }
 
@@ -118,15 +120,14 @@ Plan plan_ray_photographs(std::span<const LightFieldGrid> faces, std::span<const
     for (const LightFieldGrid& face : faces) hogels += static_cast<double>(face.hogels());
     const auto points = static_cast<double>(std::max<std::size_t>(model.pupil_samples, 1));
     Plan plan;
-    plan.memory =
-        static_cast<double>(thread_count() + 1) * camera::rays::max_block_bytes;  // hogels that are being read
+    plan.memory = static_cast<double>(thread_count() + 1) * camera::rays::max_block_bytes;  // hogels in flight
     for (const Camera& camera : cameras) {
         const auto pixels = static_cast<double>(camera.picture.samples());
         const double rays = points * static_cast<double>(camera::rays::bytes_of_rays(faces.front(), camera));
-        const std::size_t kept_of_each = camera::rays::max_kept_rays / cameras.size();
-        const bool are_kept = rays <= static_cast<double>(kept_of_each);
+        const std::size_t cached_bytes_per_camera = camera::rays::max_cached_ray_bytes / cameras.size();
+        const bool are_cached = rays <= static_cast<double>(cached_bytes_per_camera);
         plan.memory += points * sizeof(Exposure::LensPoint) +
-                       pixels * static_cast<double>(faces.front().channels) * sizeof(float) + (are_kept ? rays : 0);
+                       pixels * static_cast<double>(faces.front().channels) * sizeof(float) + (are_cached ? rays : 0);
         plan.seconds += rates::on_all_threads(points * (hogels * rates::seen_hogel + pixels * rates::seen_pixel));
     }
     return plan;

@@ -8,8 +8,8 @@
 namespace hogel::camera::rays {
 namespace {
 
-// Rows of hogels as long as possible, which suits the fastest renderer and files, and enough rows for the hogels shared
-// by neighbouring blocks to be a small part.
+// Returns the size of a block: rows of hogels as long as possible, which suits the fastest renderer and files, and
+// enough rows to keep the share of hogels in two blocks small.
 HogelRange block_size(const LightFieldGrid& grid) {
     constexpr std::size_t rows = 16;
     const std::size_t hogel_bytes = grid.channels * grid.directions() * sizeof(float);
@@ -22,7 +22,7 @@ HogelRange block_size(const LightFieldGrid& grid) {
 
 std::vector<Block> blocks(const LightFieldGrid& grid) {
     const HogelRange size = block_size(grid);
-    // Cells are between neighbours, so there is one less than hogels; a single hogel is its own cell.
+    // Cells lie between neighbours, so there is one less than hogels; a single hogel is its own cell.
     const std::size_t cells_s = std::max<std::size_t>(grid.hogels_s - 1, 1),
                       cells_t = std::max<std::size_t>(grid.hogels_t - 1, 1);
     std::vector<Block> list;

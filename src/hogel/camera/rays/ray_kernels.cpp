@@ -6,7 +6,7 @@
 
 namespace hogel::camera::rays {
 
-void look_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out) {
+void sample_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const auto at = i * hogels.hogel + static_cast<std::size_t>(directions.low[i]);
         const float* top = hogels.top + at;
@@ -17,8 +17,8 @@ void look_between_plain(const HogelRows& hogels, const Places& directions, std::
     }
 }
 
-void look_along_plain(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
-                      std::span<float> out) {
+void sample_along_plain(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
+                        std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const float above = lightfield::mix(from.top_left[i], from.top_right[i], right_weight[i]);
         const float below = lightfield::mix(from.bottom_left[i], from.bottom_right[i], right_weight[i]);
@@ -26,8 +26,8 @@ void look_along_plain(const FourDirections<float>& from, std::span<const float> 
     }
 }
 
-void look_along_plain(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,
-                      float bottom_weight, std::span<float> out) {
+void sample_along_plain(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,
+                        float bottom_weight, std::span<float> out) {
     using core::float_of;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const float above = lightfield::mix(float_of(from.top_left[i]), float_of(from.top_right[i]), right_weight[i]);

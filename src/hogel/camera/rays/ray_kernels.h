@@ -7,10 +7,10 @@
 
 namespace hogel::camera::rays {
 
-/// The inner loops of photographs by rays: linear interpolation at many places. Plain and fast twins give the same
+/// Inner loops of photographs by rays: linear interpolation at many positions. Plain and fast twins give the same
 /// bytes.
 
-/// Places between neighbouring samples of a line: the lower neighbour, and the weight of the higher one.
+/// Positions between neighbouring samples of a line: index of the lower neighbour, and weight of the higher one.
 struct Places {
     std::span<const std::int32_t> low;
     std::span<const float> high_weight;
@@ -21,15 +21,16 @@ struct HogelRows {
     const float* top = nullptr;
     const float* bottom = nullptr;
     std::size_t hogel = 0;  ///< floats from one hogel to the next
-    std::size_t next = 1;   ///< from a direction to its higher neighbour: 0 where a row has but one
+    std::size_t next = 1;   ///< stride to the higher neighbour of a direction; 0 for a single direction
     float bottom_weight = 0;
 };
 
-/// out[i] = the radiance of hogel i between its directions low[i] and the next, and between the two rows.
-void look_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out);
-extern decltype(look_between_plain)& look_between;
+/// Computes out[i], the radiance of hogel i interpolated between its directions low[i] and the next, and between the
+/// two rows.
+void sample_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out);
+extern decltype(sample_between_plain)& sample_between;
 
-/// The samples of neighbouring hogels, side by side, in four neighbouring directions; floats or halves (core/half.h).
+/// Adjacent samples of neighbouring hogels in four neighbouring directions; floats or halves (core/half.h).
 template <class Sample>
 struct FourDirections {
     const Sample* top_left = nullptr;
@@ -38,21 +39,21 @@ struct FourDirections {
     const Sample* bottom_right = nullptr;
 };
 
-/// out[i] = the radiance of hogel i between the four directions.
-void look_along_plain(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
-                      std::span<float> out);
-void look_along_plain(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,
-                      float bottom_weight, std::span<float> out);
-void look_along(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
-                std::span<float> out);
-void look_along(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight, float bottom_weight,
-                std::span<float> out);
+/// Computes out[i], the radiance of hogel i interpolated between the four directions.
+void sample_along_plain(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
+                        std::span<float> out);
+void sample_along_plain(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,
+                        float bottom_weight, std::span<float> out);
+void sample_along(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
+                  std::span<float> out);
+void sample_along(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight, float bottom_weight,
+                  std::span<float> out);
 
-/// out[i] = a[i] + (b[i] − a[i]) · weight.
+/// Computes out[i] = a[i] + (b[i] − a[i]) · weight.
 void mix_lines_plain(std::span<const float> a, std::span<const float> b, float weight, std::span<float> out);
 extern decltype(mix_lines_plain)& mix_lines;
 
-/// out[i] += the value of `line` between low[i] and low[i] + next.
+/// Computes out[i] += the value of `line` interpolated between low[i] and low[i] + next.
 void add_between_plain(std::span<const float> line, std::size_t next, const Places& places, std::span<float> out);
 extern decltype(add_between_plain)& add_between;
 

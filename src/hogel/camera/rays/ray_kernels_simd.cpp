@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of ray_kernels.cpp, compiled for every SIMD target and chosen when first called.
+// Vector twins of ray_kernels.cpp, compiled for every SIMD target and chosen when first called.
 #include "hogel/camera/rays/ray_kernels.h"
 #include "hogel/core/simd_targets-inl.h"
 
@@ -11,18 +11,18 @@ using Floats = hn::ScalableTag<float>;
 using Indices = hn::ScalableTag<std::int32_t>;
 using Value = hn::Vec<Floats>;
 
-// Multiplied and added one after the other, so that the bytes are those of the plain twins.
+// Multiplies and adds separately, so that the bytes are those of the plain twins.
 HWY_INLINE Value mix(Value a, Value b, Value weight) { return hn::Add(a, hn::Mul(hn::Sub(b, a), weight)); }
 
 HWY_INLINE Places rest_of(const Places& places, std::size_t done) {
     return {places.low.subspan(done), places.high_weight.subspan(done)};
 }
 
-void LookBetween(const HogelRows& hogels, const Places& directions, std::span<float> out) {
+void SampleBetween(const HogelRows& hogels, const Places& directions, std::span<float> out) {
     const Floats df;
     const Indices di;
     const std::size_t lanes = hn::Lanes(df);
-    // Indices of a gather have 32 bits; a hogel's own offset is below its size.
+    // A gather has 32-bit indices; a hogel's own offset is below its size.
     const std::size_t vectors = hogels.hogel > INT32_MAX / (lanes + 1) ? 0 : out.size() / lanes;
     const auto from_hogel =
         hn::Mul(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(vectors ? hogels.hogel : 0)));
@@ -43,7 +43,7 @@ void LookBetween(const HogelRows& hogels, const Places& directions, std::span<fl
     HogelRows rest = hogels;
     rest.top += done * hogels.hogel;
     rest.bottom += done * hogels.hogel;
-    look_between_plain(rest, rest_of(directions, done), out.subspan(done));
+    sample_between_plain(rest, rest_of(directions, done), out.subspan(done));
 }
 
 template <class Sample>
@@ -52,8 +52,8 @@ HWY_INLINE FourDirections<Sample> rest_of(const FourDirections<Sample>& from, st
 }
 
 template <class Sample, class Load>
-HWY_INLINE void look_along_loading(const FourDirections<Sample>& from, std::span<const float> right_weight,
-                                   float bottom_weight, std::span<float> out, const Load& load) {
+HWY_INLINE void sample_along_loading(const FourDirections<Sample>& from, std::span<const float> right_weight,
+                                     float bottom_weight, std::span<float> out, const Load& load) {
     const Floats df;
     const std::size_t lanes = hn::Lanes(df);
     const auto bottom = hn::Set(df, bottom_weight);
@@ -64,17 +64,18 @@ HWY_INLINE void look_along_loading(const FourDirections<Sample>& from, std::span
         const auto below = mix(load(from.bottom_left + i), load(from.bottom_right + i), right);
         hn::StoreU(mix(above, below, bottom), df, &out[i]);
     }
-    look_along_plain(rest_of(from, i), right_weight.subspan(i), bottom_weight, out.subspan(i));
+    sample_along_plain(rest_of(from, i), right_weight.subspan(i), bottom_weight, out.subspan(i));
 }
 
 void LookAlong(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
                std::span<float> out) {
-    look_along_loading(from, right_weight, bottom_weight, out, [](const float* at) { return hn::LoadU(Floats(), at); });
+    sample_along_loading(from, right_weight, bottom_weight, out,
+                         [](const float* at) { return hn::LoadU(Floats(), at); });
 }
 
 void LookAlongHalves(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,
                      float bottom_weight, std::span<float> out) {
-    look_along_loading(from, right_weight, bottom_weight, out, [](const std::uint16_t* at) {
+    sample_along_loading(from, right_weight, bottom_weight, out, [](const std::uint16_t* at) {
         const hn::Rebind<hwy::float16_t, Floats> dh;
         const hn::Rebind<std::uint16_t, Floats> du;
         return hn::PromoteTo(Floats(), hn::BitCast(dh, hn::LoadU(du, at)));
@@ -114,15 +115,15 @@ namespace hogel::camera::rays {
 HWY_EXPORT(LookAlong);
 HWY_EXPORT(LookAlongHalves);
 
-HOGEL_DISPATCH(look_between, LookBetween);
+HOGEL_DISPATCH(sample_between, SampleBetween);
 
-void look_along(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
-                std::span<float> out) {
+void sample_along(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
+                  std::span<float> out) {
     HWY_DYNAMIC_DISPATCH(LookAlong)(from, right_weight, bottom_weight, out);
 }
 
-void look_along(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight, float bottom_weight,
-                std::span<float> out) {
+void sample_along(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight, float bottom_weight,
+                  std::span<float> out) {
     HWY_DYNAMIC_DISPATCH(LookAlongHalves)(from, right_weight, bottom_weight, out);
 }
 

@@ -21,39 +21,39 @@ using namespace camera::rays;
 
 namespace {
 
-// Directions that are turned from side by side to one below the other at a time: a cache line of floats.
-constexpr std::size_t together = 16;
+// Directions per pass of a transpose: a cache line of floats.
+constexpr std::size_t directions_per_pass = 16;
 
 void store(const float* from, float* to, std::size_t n) { std::copy_n(from, n, to); }
 void store(const float* from, std::uint16_t* to, std::size_t n) { core::to_half(from, to, n); }
 
-// Turns the hogels of one row and channel, [s][direction], into [direction][s] with `stride` samples from a direction
-// to the next.
+// Transposes the hogels of one row and channel from [s][direction] to [direction][s], with `stride` samples from
+// direction to direction.
 template <class Sample>
-void turn(View<const float, 2> hogels, Sample* to, std::size_t stride) {
+void transpose(View<const float, 2> hogels, Sample* to, std::size_t stride) {
     const std::size_t count = hogels.extent(0), directions = hogels.extent(1);
-    std::vector<float> turned(together * count);
-    for (std::size_t first = 0; first < directions; first += together) {
-        const std::size_t some = std::min(together, directions - first);
+    std::vector<float> transposed(directions_per_pass * count);
+    for (std::size_t first = 0; first < directions; first += directions_per_pass) {
+        const std::size_t batch = std::min(directions_per_pass, directions - first);
         for (std::size_t s = 0; s < count; ++s)
-            for (std::size_t i = 0; i < some; ++i) turned[i * count + s] = hogels(s, first + i);
-        for (std::size_t i = 0; i < some; ++i) store(&turned[i * count], to + (first + i) * stride, count);
+            for (std::size_t i = 0; i < batch; ++i) transposed[i * count + s] = hogels(s, first + i);
+        for (std::size_t i = 0; i < batch; ++i) store(&transposed[i * count], to + (first + i) * stride, count);
     }
 }
 
-// All samples of a light field, [v][u][c][t][s].
+// Returns all samples of a light field, [v][u][c][t][s].
 template <class Sample>
 std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource& source, const Progress& progress) {
     const LightFieldGrid& grid = source.grid();
     const std::size_t view = grid.channels * grid.hogels(), directions = grid.directions();
     std::vector<Sample, CacheLineAllocator<Sample>> samples(view * directions);
-    const auto put = [&](const HogelBlock& block) {
+    const auto store_block = [&](const HogelBlock& block) {
         work::parallel_for(block.range.nt * grid.channels, [&](std::size_t i) {
             const std::size_t t = i / grid.channels, c = i % grid.channels;
             const View<const float, 2> hogels(block.radiance + c * block.channel + t * block.row,
                                               {block.range.ns, directions});
             const std::size_t row = (c * grid.hogels_t + block.range.t0 + t) * grid.hogels_s;
-            turn(hogels, samples.data() + row + block.range.s0, view);
+            transpose(hogels, samples.data() + row + block.range.s0, view);
         });
     };
     const HogelRange tile = source.preferred_tile();
@@ -62,10 +62,11 @@ std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource&
         across * down, thread_count(),
         [&](std::size_t i) {
             const std::size_t s = i % across * tile.ns, t = i / across * tile.nt;
-            return hold(source, {s, t, std::min(tile.ns, grid.hogels_s - s), std::min(tile.nt, grid.hogels_t - t)});
+            return load_hogels(source,
+                               {s, t, std::min(tile.ns, grid.hogels_s - s), std::min(tile.nt, grid.hogels_t - t)});
         },
-        [&](std::size_t i, LoadedHogels& held) {
-            put(held.block);
+        [&](std::size_t i, LoadedHogels& loaded) {
+            store_block(loaded.block);
             progress.report(static_cast<double>(i + 1) / static_cast<double>(across * down));
         });
     return samples;
@@ -76,8 +77,8 @@ std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource&
 struct RayPhotographer::State {
     LightFieldGrid grid;
     Provenance provenance;
-    // One of these three.
-    std::optional<LightField> read_by_each;
+    // Exactly one of these is in use.
+    std::optional<LightField> light_field;
     std::vector<float, CacheLineAllocator<float>> floats;
     std::vector<std::uint16_t, CacheLineAllocator<std::uint16_t>> halves;
 };
@@ -88,7 +89,7 @@ RayPhotographer::RayPhotographer(LightField light_field, const RayPhotographerOp
     const core::StopScope scope(progress);
     const LightFieldSource& front = light_field.front();
     if (light_field.has_sides() || !is_separable(front.grid())) {
-        state_->read_by_each = std::move(light_field);
+        state_->light_field = std::move(light_field);
         return;
     }
     const double samples = front.grid().samples(), memory = static_cast<double>(options.memory);
@@ -117,8 +118,8 @@ void RayPhotographer::photograph_into(const Camera& camera, const RayCamera& mod
                                       const Progress& progress) {
     const State& state = *state_;
     const core::StopScope scope(progress);
-    if (state.read_by_each)
-        return hogel::photograph_into(*state.read_by_each, std::span(&camera, 1), model, std::span(&picture, 1),
+    if (state.light_field)
+        return hogel::photograph_into(*state.light_field, std::span(&camera, 1), model, std::span(&picture, 1),
                                       progress);
     require_ray_camera(camera);
     Exposure exposure({state.grid}, camera, std::max<std::size_t>(model.pupil_samples, 1));
