@@ -87,8 +87,8 @@ TEST(PsfBasis, gives_the_products_of_all_waves) {
                 for (std::size_t m = 0; m < n; ++m)
                     for (const double a : {-0.9, -0.2, 0.5})
                         for (const double b : {-0.6, 0.1, 1.0}) {
-                            const auto light = [&](double y, double place) {
-                                return dirichlet(y - place * half_band, n);
+                            const auto light = [&](double y, double position) {
+                                return dirichlet(y - position * half_band, n);
                             };
                             const double truth = light(double(m) + nu, a) * light(double(m) + nu, b);
                             double sum = 0;

@@ -13,11 +13,11 @@
 namespace hogel::camera::speckle_free {
 namespace {
 
-// A share of each diagonal element that is added to it, because waves that are close together have nearly equal spots.
+// Relative increase of the diagonal, because waves that are close together have nearly equal PSFs.
 constexpr double damping = 1e-8;
 
-// The frequencies y_q: half a cycle apart up to half a cycle beyond the pupil, then two more on either side for all
-// waves that are farther. If hogels have too few samples for these, half a cycle apart throughout.
+// Returns the frequencies y_q: half a cycle apart up to half a cycle beyond the pupil, then two more on either side for
+// all farther waves. If hogels have too few samples for these, half a cycle apart throughout.
 std::vector<double> choose_nodes(std::size_t samples, double half_band) {
     const double steps = std::floor((half_band + 0.5) / 0.5 + 1e-9), last = 0.5 * steps;
     const double end = 0.5 * static_cast<double>(samples);
@@ -35,7 +35,7 @@ std::vector<double> choose_nodes(std::size_t samples, double half_band) {
     return nodes;
 }
 
-// Solves equations with one symmetric matrix by Cholesky's decomposition.
+// Solves equations with a symmetric matrix by Cholesky decomposition.
 class Cholesky {
   public:
     explicit Cholesky(Array<double, 2> matrix) : lower_(std::move(matrix)) {
@@ -88,37 +88,37 @@ PsfBasis::PsfBasis(std::size_t samples, double half_band) : PsfNodes(samples, ha
         return sum * sum;
     };
     std::vector<std::vector<double>> lights;
-    std::vector<double> sizes;
+    std::vector<double> norms;
     for (std::size_t q = 0; q < count; ++q) {
         lights.push_back(light(node(q)));
-        sizes.push_back(std::sqrt(product(lights.back(), lights.back())));
+        norms.push_back(std::sqrt(product(lights.back(), lights.back())));
     }
     Array<double, 2> normal({count, count});
     for (std::size_t a = 0; a < count; ++a)
         for (std::size_t b = 0; b < count; ++b)
-            normal(a, b) = product(lights[a], lights[b]) / (sizes[a] * sizes[b]) + (a == b ? damping : 0);
+            normal(a, b) = product(lights[a], lights[b]) / (norms[a] * norms[b]) + (a == b ? damping : 0);
     const Cholesky equations(std::move(normal));
 
     table_ = Array<float, 3>({fractions, 2 * samples, padded_count()});
-    std::vector<double> wrong(fractions), all(fractions);
+    std::vector<double> residuals(fractions), squares(fractions);
     work::parallel_for(fractions, [&](std::size_t fraction) {
-        std::vector<double> b(count), right(count);
+        std::vector<double> b(count), projections(count);
         for (std::size_t m = 0; m < samples; ++m) {
             if (m % 64 == 0) core::throw_if_stopped();
-            const std::vector<double> own =
+            const std::vector<double> amplitudes =
                 light(static_cast<double>(m) + static_cast<double>(fraction) / static_cast<double>(fractions));
-            for (std::size_t q = 0; q < count; ++q) b[q] = right[q] = product(own, lights[q]) / sizes[q];
+            for (std::size_t q = 0; q < count; ++q) b[q] = projections[q] = product(amplitudes, lights[q]) / norms[q];
             equations.solve(b);
-            const double square = product(own, own);
-            double left = square;
-            for (std::size_t q = 0; q < count; ++q) left -= b[q] * right[q];
-            wrong[fraction] += std::max(left, 0.0);
-            all[fraction] += square;
+            const double square = product(amplitudes, amplitudes);
+            double residual = square;
+            for (std::size_t q = 0; q < count; ++q) residual -= b[q] * projections[q];
+            residuals[fraction] += std::max(residual, 0.0);
+            squares[fraction] += square;
             for (std::size_t q = 0; q < count; ++q)
-                table_(fraction, m, q) = table_(fraction, samples + m, q) = static_cast<float>(b[q] / sizes[q]);
+                table_(fraction, m, q) = table_(fraction, samples + m, q) = static_cast<float>(b[q] / norms[q]);
         }
     });
-    error_ = std::sqrt(std::reduce(wrong.begin(), wrong.end()) / std::reduce(all.begin(), all.end()));
+    error_ = std::sqrt(std::reduce(residuals.begin(), residuals.end()) / std::reduce(squares.begin(), squares.end()));
 }
 
 PsfBasis::Weights PsfBasis::weights(double frequency) const {

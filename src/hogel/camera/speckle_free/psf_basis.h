@@ -8,8 +8,8 @@
 
 namespace hogel::camera::speckle_free {
 
-/// The frequencies y_q of a few waves of a hogel, along one axis, whose spots stand for those of all: half a cycle
-/// apart around the pupil and farther apart beyond. See PsfBasis.
+/// Frequencies y_q of the node waves of a hogel, along one axis: half a cycle apart around the pupil and farther apart
+/// beyond. PsfBasis expands the PSFs of all waves in the PSFs of these.
 class PsfNodes {
   public:
     /// @param samples    n, of a hogel
@@ -17,17 +17,17 @@ class PsfNodes {
     PsfNodes(std::size_t samples, double half_band);
 
     std::size_t samples() const { return samples_; }
-    /// The number of waves y_q, and the frequency of one.
+    /// Number of node waves, and the frequency of one.
     std::size_t count() const { return nodes_.size(); }
     double node(std::size_t q) const { return nodes_[q]; }
 
-    /// Waves that are processed together; weights are zero beyond count().
+    /// Number of waves that are processed together; weights are padded with zeros beyond count().
     static constexpr std::size_t lanes = 16;
-    static constexpr std::size_t in_lanes(std::size_t numbers) { return (numbers + lanes - 1) / lanes * lanes; }
-    std::size_t padded_count() const { return in_lanes(count()); }
-    /// Points of the pupil at which spots are compared.
+    static constexpr std::size_t padded_to_lanes(std::size_t numbers) { return (numbers + lanes - 1) / lanes * lanes; }
+    std::size_t padded_count() const { return padded_to_lanes(count()); }
+    /// Returns the number of points of the pupil at which PSFs are compared.
     std::size_t points() const;
-    /// Products that a PsfBasis of these waves takes.
+    /// Returns the number of products that the constructor of a PsfBasis computes.
     double products() const;
 
   private:
@@ -36,21 +36,22 @@ class PsfNodes {
     std::vector<double> nodes_;
 };
 
-/// The waves whose spots stand for those of all waves of a hogel, along one axis.
+/// Basis of the PSFs of all waves of a hogel, along one axis.
 ///
-/// On a film, a wave of frequency y, in cycles per hogel after demodulation towards the eye, has an intensity that is
-/// quadratic in its light D(y − κ) over the pupil |κ| ≤ κ_m. Products of two such lights are band-limited in y, because
-/// a hogel is a window, so those of any y are sums of those of a few y_q, half a cycle apart around the pupil and
-/// farther apart beyond:
+/// A wave of frequency y, in cycles per hogel after demodulation towards the viewpoint, has an intensity on the film
+/// that is quadratic in its light D(y − κ) over the pupil |κ| ≤ κ_m. Products of two such lights are band-limited in y,
+/// because a hogel is a window. So the products of any y are sums of those of a few y_q, half a cycle apart around the
+/// pupil and farther apart beyond:
 ///
 ///     D(y − κ) D(y − κ') ≈ Σ_q b_q(y) D(y_q − κ) D(y_q − κ'),
 ///
-/// by least squares over κ and κ'. The inner product of two such functions is that of D(y − κ) and D(y' − κ), squared.
+/// by least squares over κ and κ'. The inner product of two such functions is the square of the inner product of D(y −
+/// κ) and D(y' − κ).
 class PsfBasis : public PsfNodes {
   public:
     PsfBasis(std::size_t samples, double half_band);
 
-    /// b_q(m + ν) for m = 0 … n−1, for ν rounded to a 128th: those of m begin at first + m · stride.
+    /// b_q(m + ν) for m = 0 … n−1, with ν rounded to a 128th. The weights of wave m begin at first + m · stride.
     struct Weights {
         const float* first;
         std::size_t stride;
@@ -59,7 +60,7 @@ class PsfBasis : public PsfNodes {
 
     static constexpr std::size_t fractions = 128;
 
-    /// The relative error of the products, root mean square over waves of all frequencies.
+    /// Returns the relative error of the products, root mean square over waves of all frequencies.
     double error() const { return error_; }
 
   private:

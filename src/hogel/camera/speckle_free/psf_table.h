@@ -11,93 +11,94 @@
 
 namespace hogel::camera::speckle_free {
 
-/// The hogels of a stereogram as an eye sees them: hogel (s, t) is at plane.x(s), plane.y(t).
+/// Positions of the hogels of a stereogram: hogel (s, t) is at plane.x(s), plane.y(t).
 struct HogelGrid {
     Grid plane;
     std::size_t samples = 0;  ///< along a side of a hogel
     double wavelength = 0;
 };
 
-/// Half the width of the light of a pupil, in cycles per hogel: the widest anywhere on the hologram.
-double half_band(const HogelGrid& hogels, Vec3 eye, double pupil);
+/// Returns half the width of the light of a pupil, in cycles per hogel: the maximum over the hologram.
+double half_band(const HogelGrid& hogels, Vec3 viewpoint, double pupil);
 
-/// The pairs (q_x, q_y) of waves whose spots are used: all but those in corners that send next to no light into the
-/// pupil. For each q_x the q_y are consecutive.
-struct Pairs {
+/// Pairs (q_x, q_y) of node waves with a PSF: all but those in corners that send next to no light into the pupil. For
+/// each q_x the q_y are consecutive.
+struct NodePairs {
     struct Range {
         std::size_t begin = 0, end = 0;
     };
-    std::vector<Range> of_column;  ///< [q_x]
-    std::size_t count = 0;         ///< in all
-    /// With zeros, so that those of each hogel begin at a cache line.
-    std::size_t padded_count() const { return PsfBasis::in_lanes(count); }
+    std::vector<Range> ranges;  ///< [q_x]
+    std::size_t count = 0;      ///< total
+    /// Count padded with zeros, so that the pairs of each hogel begin at a cache line.
+    std::size_t padded_count() const { return PsfBasis::padded_to_lanes(count); }
 
-    Pairs(const PsfNodes& basis, double half_band);
+    NodePairs(const PsfNodes& basis, double half_band);
 };
 
-/// Where the pixels of a picture lie among hogels along one axis, as far as they are on the hologram or on the
-/// surroundings that are seen. A pixel around position u, in hogels, receives the light of hogels base − reach …
-/// base + reach, and its place among them is one of a few.
+/// Positions of a picture's pixels among hogels along one axis, clipped to the hologram and the visible surroundings. A
+/// pixel around position u, in hogels, receives the light of hogels base − support … base + support. Its offset and
+/// width are one of a few entries.
 struct PixelOffsets {
-    struct Place {
+    struct Entry {
         double offset = 0;  ///< u − base
-        double width = 0;   ///< of what is on the hologram or its surroundings
+        double width = 0;   ///< width on the hologram or its surroundings, in hogels
     };
-    std::vector<Place> places;
+    std::vector<Entry> entries;
     std::vector<std::ptrdiff_t> base;  ///< [pixel]
-    std::vector<std::size_t> place;    ///< [pixel], an index of places
-    std::vector<float> seen;           ///< [pixel], the share of it that is on the hologram or its surroundings
+    std::vector<std::size_t> entry;    ///< [pixel], an index of entries
+    std::vector<float> visible;        ///< [pixel], the share of its width on the hologram or its surroundings
     double width = 0;                  ///< of a whole pixel, in hogels
-    std::size_t beside = 0;            ///< of the surroundings at either end, in hogels
+    std::size_t border = 0;            ///< of the surroundings at either end, in hogels
 };
-/// Positions u = first + i · step of `pixels` pixels among `hogels` hogels and `beside` more at either end that are
-/// dark. If more than `max_places` different places occur, they are rounded to this part of a hogel.
-PixelOffsets pixel_offsets(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t beside,
-                           std::size_t max_places);
+/// Returns positions u = first + i · step of `pixels` pixels among `hogels` hogels and `border` empty ones at either
+/// end. If there are more than `max_offsets` different offsets, they are rounded to 1/max_offsets of a hogel.
+PixelOffsets pixel_offsets(std::size_t pixels, double first, double step, std::size_t hogels, std::size_t border,
+                           std::size_t max_offsets);
 
-/// Places along an axis for which a table of spots takes 64 MB at most, from 4 to 32: wide spots, which need many
-/// hogels, are smooth.
-std::size_t max_places(const Pairs& pairs, std::size_t reach);
+/// Returns the number of offsets along an axis, from 4 to 32, for which a PSF table takes at most 64 MB. Wide PSFs,
+/// which need many hogels, are smooth and need few offsets.
+std::size_t max_offsets(const NodePairs& pairs, std::size_t support);
 
-/// The means of a spot's film over the pixels at each place, the same wherever the spot is.
+/// Matrices that average a PSF on the film over the pixels at each offset, the same for every PSF.
 struct PixelMeans {
-    Array<float, 2> down;    ///< [place · hogel][sample of the film]
-    Array<float, 2> across;  ///< [sample of the film][place · hogel], with zeros up to a multiple of PsfBasis::lanes
+    Array<float, 2> down;  ///< [entry · hogel][sample of the film]
+    Array<float, 2>
+        across;  ///< [sample of the film][entry · hogel], padded with zeros to a multiple of PsfBasis::lanes
 
     PixelMeans(const HogelGrid& hogels, const Camera& camera, double half_band, const PixelOffsets& columns,
                const PixelOffsets& rows);
 };
 
-/// PsfTable of waves on a camera's film, as means over pixels.
+/// PSFs of waves on a camera's film, as means over pixels.
 ///
-/// A wave with the light D(y_x − κ_x) D(y_y − κ_y) in the pupil's plane has on the film, at the distance x from its
-/// hogel, in hogels, the intensity |∫ D D P e^{2πiκ·x} dκ|², with P the pupil's disc and the phase of the focus.
+/// A wave with the light D(y_x − κ_x) D(y_y − κ_y) in the pupil's plane has the intensity |∫ D D P e^{2πiκ·x} dκ|² on
+/// the film at the distance x from its hogel, in hogels. P is the pupil's disc with the phase of the focus.
 class PsfTable {
   public:
-    /// The distance, in hogels, up to which spots are followed beside a hogel for cameras with this blur; what is
-    /// farther away is the tail.
-    static std::size_t reach(const HogelGrid& hogels, const Camera& camera, double half_band);
+    /// Returns the support, in hogels beside a hogel, of the PSFs of a camera; light beyond is the tail.
+    static std::size_t support(const HogelGrid& hogels, const Camera& camera, double half_band);
 
-    /// Products of numbers that the constructor computes, about.
-    static double products(const HogelGrid& hogels, const Camera& camera, const Pairs& pairs, double half_band,
+    /// Returns the approximate number of products that the constructor computes.
+    static double products(const HogelGrid& hogels, const Camera& camera, const NodePairs& pairs, double half_band,
                            const PixelOffsets& columns, const PixelOffsets& rows);
 
-    /// @param x, y   the point of the hologram at which pupil and focus are seen
+    /// @param x, y   the point of the hologram that defines pupil and focus
     /// @param means  for these columns and rows
-    PsfTable(const HogelGrid& hogels, const Camera& camera, const PsfBasis& basis, const Pairs& pairs, double half_band,
-             double x, double y, const PixelOffsets& columns, const PixelOffsets& rows, const PixelMeans& means);
+    PsfTable(const HogelGrid& hogels, const Camera& camera, const PsfBasis& basis, const NodePairs& pairs,
+             double half_band, double x, double y, const PixelOffsets& columns, const PixelOffsets& rows,
+             const PixelMeans& means);
 
-    /// Hogels that light a pixel, along an axis.
-    std::size_t taps() const { return 2 * reach_ + 1; }
-    std::size_t reach() const { return reach_; }
-    /// [place down][place across][hogel down][hogel across · pair]: by how much the spots of a hogel expose a pixel, in
-    /// radiance.
+    /// Returns the number of hogels in the support of a pixel, along an axis.
+    std::size_t taps() const { return 2 * support_ + 1; }
+    std::size_t support() const { return support_; }
+    /// [entry down][entry across][hogel down][hogel across · pair]: radiance of a pixel due to the PSF of a pair of a
+    /// hogel.
     View<const float, 4> weights() const { return weights_; }
-    /// [pair]: what a spot's light beyond these hogels exposes in all, pixel by pixel of the size of a hogel.
+    /// [pair]: total exposure by the tail of a PSF, on pixels of the size of a hogel.
     std::span<const float> tails() const { return tails_; }
 
   private:
-    std::size_t reach_;
+    std::size_t support_;
     Array<float, 4> weights_;
     std::vector<float> tails_;
 };

@@ -8,18 +8,18 @@
 
 namespace hogel::camera::speckle_free {
 
-/// Photographs the mean of infinitely many looks of a stereogram whose waves have independent random phases: the sum of
-/// the intensities of all waves, without speckle. The spots of a hogel's waves on the film are sums of those of a few
-/// waves (PsfBasis), so each hogel is worth some eighty numbers to an eye, which all focuses share, and a pixel is the
-/// product of those of the hogels around it and a table of spots. Light that falls beyond five resolution cells beside
-/// a hogel's picture is spread as the diffraction of the pupil's rim, by the third power of the distance.
+/// Photographs the mean of infinitely many looks of a stereogram with independent random phases: the sum of the
+/// intensities of all waves, without speckle. PsfBasis expands the PSFs of a hogel's waves in those of a few node
+/// waves. A hogel then has about eighty numbers per viewpoint, which all focuses share. A pixel is the product of the
+/// numbers of the hogels around it and a table of PSFs. Light beyond five resolution cells from a hogel's picture is
+/// spread like the diffraction at the pupil's rim, by the third power of the distance.
 ///
-/// Pictures are added to. Memory: the numbers of all hogels for all eyes, or of bands of rows of hogels. Throws
+/// Pictures are added to. Memory: the numbers of all hogels for all viewpoints, or of bands of rows of hogels. Throws
 /// Error(usage) as photograph() does.
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const SpeckleFreeCamera& model, std::span<Image> pictures, const Progress& progress);
 
-/// Resources of photograph(): the numbers, and products of numbers and spots.
+/// Returns the resources of photograph(): the numbers, and products of numbers and PSFs.
 Plan plan(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const SpeckleFreeCamera& model);
 
