@@ -314,8 +314,8 @@ void expose(const FocusedWave& focused, const Camera& camera, const distributed:
             double sum = 0;
             for (std::size_t b = 0; b < sub_y; ++b)
                 for (std::size_t a = 0; a < sub_x; ++a) {
-                    const double x = picture.x(static_cast<double>(column) + film::gauss_place(a, sub_x));
-                    const double y = picture.y(static_cast<double>(row) + film::gauss_place(b, sub_y));
+                    const double x = picture.x(static_cast<double>(column) + film::gauss_position(a, sub_x));
+                    const double y = picture.y(static_cast<double>(row) + film::gauss_position(b, sub_y));
                     if (!shown.holds(x, y)) continue;
                     const Vec3 p = in_focus(camera, x, y), offset = focused.scale * (p - focused.origin);
                     // Interpolation may undershoot between dark samples.

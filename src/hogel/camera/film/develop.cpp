@@ -15,11 +15,11 @@
 namespace hogel::camera::film {
 namespace {
 
-// The most by which the places of columns with the same weights may differ, in rows: three nodes do.
-constexpr double spread_of_groups = 0.15;
+// Maximum difference of positions, in rows, of columns with the same weights, for which three nodes suffice.
+constexpr double max_group_spread = 0.15;
 
-// A pixel's mean is taken first down the film's columns, on each of which n_x is constant and n_y = √(1 − n_x²) ·
-// (y − c_y)/√((y − c_y)² + c_z²), and then along its rows, sixteen lines at a time.
+// Computes the mean of a pixel first down the film's columns, with constant n_x and n_y = √(1 − n_x²) · (y − c_y)/√((y
+// − c_y)² + c_z²) on each, and then along its rows, sixteen lines at a time.
 class Development {
   public:
     Development(const FilmAxis& x, const FilmAxis& y, const Camera& camera, const Rectangle& shown, double wavelength)
@@ -28,21 +28,21 @@ class Development {
         points_x_ = gauss_points(picture_.pitch_x / cell);
         points_y_ = gauss_points(picture_.pitch_y / cell);
         for (std::size_t a = 0; a < points_x_; ++a) {
-            const auto held = [&](std::size_t column) {
-                const double at = picture_.x(place(column, a, points_x_));
-                return at >= shown.left && at < shown.right;
+            const auto is_shown = [&](std::size_t column) {
+                const double position = picture_.x(pixel_position(column, a, points_x_));
+                return position >= shown.left && position < shown.right;
             };
             Range range;
-            while (range.begin < picture_.width && !held(range.begin)) ++range.begin;
-            for (range.end = range.begin; range.end < picture_.width && held(range.end);) ++range.end;
+            while (range.begin < picture_.width && !is_shown(range.begin)) ++range.begin;
+            for (range.end = range.begin; range.end < picture_.width && is_shown(range.end);) ++range.end;
             shown_.push_back(range);
         }
         for (std::size_t row = 0; row < picture_.height; ++row) {
             sines_.emplace_back();
             for (std::size_t b = 0; b < points_y_; ++b) {
-                const double at = picture_.y(place(row, b, points_y_)), up = at - eye_.y;
-                if (at >= shown.bottom && at < shown.top)
-                    sines_.back().push_back(up / std::hypot(up, eye_.z) / y_.step);
+                const double position = picture_.y(pixel_position(row, b, points_y_)), dy = position - eye_.y;
+                if (position >= shown.bottom && position < shown.top)
+                    sines_.back().push_back(dy / std::hypot(dy, eye_.z) / y_.step);
             }
         }
         for (std::size_t i = 0; i < optics::blocks_of(x_.count) * optics::block_lines; ++i) {
@@ -57,23 +57,23 @@ class Development {
     struct Scratch {
         MergedWeights weights;
         std::vector<MergedWeights::Point> points;
-        Array<float, 2> rows;    // [picture row][column of the film]
-        Array<float, 1> turned;  // [column of the film][picture row]
-        Array<float, 2> pixels;  // [picture column][picture row]
+        Array<float, 2> rows;        // [picture row][column of the film]
+        Array<float, 1> transposed;  // [column of the film][picture row]
+        Array<float, 2> pixels;      // [picture column][picture row]
     };
 
-    // Sixteen rows of the picture, from `first` on, or fewer.
+    // Develops at most sixteen rows of the picture from `first` on.
     void develop(View<const float, 2> blocks, std::size_t first, float scale, Scratch& scratch, Image& image) const {
         const std::size_t rows = std::min(optics::block_lines, picture_.height - first), width = slopes_.size();
         if (scratch.rows.size() == 0) {
             scratch.rows = Array<float, 2>({optics::block_lines, width});
-            scratch.turned = Array<float, 1>({width * optics::block_lines});
+            scratch.transposed = Array<float, 1>({width * optics::block_lines});
             scratch.pixels = Array<float, 2>({picture_.width, optics::block_lines});
         }
         for (std::size_t row = 0; row < rows; ++row) sum_down(blocks, first + row, scratch, scratch.rows[row]);
         for (std::size_t block = 0; block < width; block += optics::block_lines)
             transpose_block(&scratch.rows(0, block), width, optics::block_lines,
-                            &scratch.turned(block * optics::block_lines));
+                            &scratch.transposed(block * optics::block_lines));
         sum_along(first, rows, scale, scratch);
         for (std::size_t row = 0; row < rows; ++row)
             for (std::size_t column = 0; column < picture_.width; ++column)
@@ -84,14 +84,14 @@ class Development {
     struct Range {
         std::size_t begin = 0, end = 0;
     };
-    // Blocks of columns whose points lie on nearly the same rows.
+    // Blocks of columns with points on nearly the same rows.
     struct Group {
         std::size_t begin, end;
         double low, high;  // slopes
     };
 
-    static double place(std::size_t pixel, std::size_t point, std::size_t count) {
-        return static_cast<double>(pixel) + gauss_place(point, count);
+    static double pixel_position(std::size_t pixel, std::size_t point, std::size_t count) {
+        return static_cast<double>(pixel) + gauss_position(point, count);
     }
 
     void make_groups() {
@@ -99,12 +99,12 @@ class Development {
         for (const auto& row : sines_)
             for (const double sine : row) farthest = std::max(farthest, std::abs(sine));
         for (std::size_t block = 0; block < slopes_.size() / optics::block_lines; ++block) {
-            const auto own = std::span(slopes_).subspan(block * optics::block_lines, optics::block_lines);
-            const auto [low, high] = std::ranges::minmax(own);
+            const auto block_slopes = std::span(slopes_).subspan(block * optics::block_lines, optics::block_lines);
+            const auto [low, high] = std::ranges::minmax(block_slopes);
             if (!groups_.empty()) {
                 Group& last = groups_.back();
                 const double all_low = std::min(low, last.low), all_high = std::max(high, last.high);
-                if (farthest * (all_high - all_low) <= spread_of_groups) {
+                if (farthest * (all_high - all_low) <= max_group_spread) {
                     last = {last.begin, block + 1, all_low, all_high};
                     continue;
                 }
@@ -113,7 +113,7 @@ class Development {
         }
     }
 
-    // The sums over the points of a row of the picture down each column of the film.
+    // Computes the sums over the points of a row of the picture down each column of the film.
     void sum_down(View<const float, 2> blocks, std::size_t row, Scratch& scratch, View<float, 1> out) const {
         const double offset = -y_.low / y_.step;
         const auto place_points = [&](double low, double high) {
@@ -122,33 +122,33 @@ class Development {
                 scratch.points.push_back({offset + sine * low, offset + sine * high, 1, 1});
         };
         for (const Group& group : groups_) {
-            const Lines all{0, optics::block_lines, group.low, group.high};
-            place_points(all.low, all.high);
+            const Lines lines{0, optics::block_lines, group.low, group.high};
+            place_points(lines.low, lines.high);
             const bool merged = scratch.weights.set(scratch.points, y_.count);
             for (std::size_t block = group.begin; block < group.end; ++block) {
                 const std::size_t first = block * optics::block_lines;
                 const auto slopes = std::span(slopes_).subspan(first).first<optics::block_lines>();
                 if (merged)
-                    sum(&blocks(block, 0), slopes, all, scratch.weights, &out(first));
+                    sum(&blocks(block, 0), slopes, lines, scratch.weights, &out(first));
                 else
-                    sum_some(&blocks(block, 0), y_.count, slopes, all, place_points, scratch, &out(first));
+                    sum_lines(&blocks(block, 0), y_.count, slopes, lines, place_points, scratch, &out(first));
             }
         }
     }
 
-    // The sums over the points of each pixel of some rows along the lines, times r³.
+    // Computes the sums over the points of each pixel of several rows along the lines, times r³.
     void sum_along(std::size_t first, std::size_t rows, float scale, Scratch& scratch) const {
         double squares[optics::block_lines];
         for (std::size_t row = 0; row < optics::block_lines; ++row) {
-            const double up = picture_.y(static_cast<double>(first + std::min(row, rows - 1))) - eye_.y;
-            squares[row] = up * up + eye_.z * eye_.z;
+            const double dy = picture_.y(static_cast<double>(first + std::min(row, rows - 1))) - eye_.y;
+            squares[row] = dy * dy + eye_.z * eye_.z;
         }
         for (std::size_t column = 0; column < picture_.width; ++column) {
             const auto place_points = [&](double low, double high) {
                 scratch.points.clear();
                 for (std::size_t a = 0; a < points_x_; ++a) {
                     if (column < shown_[a].begin || column >= shown_[a].end) continue;
-                    const double right = picture_.x(place(column, a, points_x_)) - eye_.x;
+                    const double right = picture_.x(pixel_position(column, a, points_x_)) - eye_.x;
                     const double low_square = right * right + low, high_square = right * right + high;
                     const double low_r = std::sqrt(low_square), high_r = std::sqrt(high_square);
                     scratch.points.push_back({(right / low_r - x_.low) / x_.step, (right / high_r - x_.low) / x_.step,
@@ -156,38 +156,38 @@ class Development {
                                               scale * static_cast<float>(high_square * high_r)});
                 }
             };
-            sum_some(scratch.turned.data(), x_.count, squares, {0, optics::block_lines}, place_points, scratch,
-                     &scratch.pixels(column, 0));
+            sum_lines(scratch.transposed.data(), x_.count, squares, {0, optics::block_lines}, place_points, scratch,
+                      &scratch.pixels(column, 0));
         }
     }
 
-    // Some of sixteen lines, and the least and the largest of the values on which their places depend.
+    // A range of sixteen lines, and the minimum and maximum of the values that determine positions.
     struct Lines {
         std::size_t begin = 0, end = 0;
         double low = 0, high = 0;
     };
 
-    // The weighted sums of lines.
+    // Computes the weighted sums of a range of lines.
     static void sum(const float* samples, std::span<const double, optics::block_lines> values, const Lines& lines,
                     const MergedWeights& weights, float* out) {
-        alignas(64) float t[optics::block_lines] = {}, all[optics::block_lines];
+        alignas(64) float t[optics::block_lines] = {}, sums[optics::block_lines];
         for (std::size_t line = lines.begin; line < lines.end; ++line)
-            t[line] = line_place(values[line], lines.low, lines.high);
-        sum_merged(samples, weights, t, all);
-        std::copy(all + lines.begin, all + lines.end, out + lines.begin);
+            t[line] = line_position(values[line], lines.low, lines.high);
+        sum_merged(samples, weights, t, sums);
+        std::copy(sums + lines.begin, sums + lines.end, out + lines.begin);
     }
 
-    // The same, in halves if places differ too much.
+    // Computes the weighted sums; splits the range in halves if positions differ too much.
     template <class PlacePoints>
-    static void sum_some(const float* samples, std::size_t size, std::span<const double, optics::block_lines> values,
-                         const Lines& lines, const PlacePoints& place_points, Scratch& scratch, float* out) {
+    static void sum_lines(const float* samples, std::size_t size, std::span<const double, optics::block_lines> values,
+                          const Lines& lines, const PlacePoints& place_points, Scratch& scratch, float* out) {
         const auto [low, high] = std::ranges::minmax(values.subspan(lines.begin, lines.end - lines.begin));
         place_points(low, high);
         if (scratch.weights.set(scratch.points, size))
             return sum(samples, values, {lines.begin, lines.end, low, high}, scratch.weights, out);
         const std::size_t middle = (lines.begin + lines.end) / 2;
-        sum_some(samples, size, values, {lines.begin, middle}, place_points, scratch, out);
-        sum_some(samples, size, values, {middle, lines.end}, place_points, scratch, out);
+        sum_lines(samples, size, values, {lines.begin, middle}, place_points, scratch, out);
+        sum_lines(samples, size, values, {middle, lines.end}, place_points, scratch, out);
     }
 
     FilmAxis x_, y_;
@@ -206,8 +206,8 @@ void Film::develop(View<const float, 2> blocks, const Camera& camera, const Rect
                    Image& image) const {
     const Development development(size_.x, size_.y, camera, shown, hologram_.wavelength);
     // A diffuse surface of radiance L sends L cos θ · (area of the pupil) cos θ/r² through this band, and its plane
-    // waves have 1/cos θ of that as |F|² (docs/notation.md section 4): so the film shows radiance times
-    // (area of the pupil) cos θ/r², and cos θ is c_z/r.
+    // waves have 1/cos θ of that as |F|² (docs/notation.md section 4). So the film shows radiance times (area of the
+    // pupil) cos θ/r², with cos θ = c_z/r.
     const double area = FilmLens(size_.sines, hologram_.wavelength, camera).area();
     const auto scale = static_cast<float>(weight / (area * camera.eye.z * development.points()));
     core::ObjectPool<Development::Scratch> pool;

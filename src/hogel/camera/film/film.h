@@ -20,91 +20,93 @@
 
 namespace hogel::camera::film {
 
-/// Samples of a film per resolution cell. The intensity of a pupil's wave varies no faster than once in a cell, so two
-/// hold it all; TwelvePoint interpolates between a few more.
+/// Samples of a film per resolution cell. The intensity behind a pupil varies by at most one period per cell, so two
+/// samples represent it; TwelvePoint interpolates between a few more.
 inline constexpr double samples_a_cell = 2.4;
-/// As many for a picture, fewer for a preview: means over pixels that are wider than a cell hardly see the finest
-/// speckle.
+/// Returns the samples per cell: fewer for a preview, because means over pixels wider than a cell hardly show the
+/// finest speckle.
 constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
-/// One axis of the film that is exposed: samples of a transform of `size` over the period of the sines, of which those
-/// that are shown are kept.
+/// One axis of an exposed film: `size` samples of a transform over the period of the sines, of which the shown ones are
+/// kept.
 struct FilmAxis {
     std::size_t size = 0;  ///< of the transform
     std::size_t first = 0, count = 0;
-    double low = 0, step = 0;  ///< sine of the first that is kept, and between samples
+    double low = 0, step = 0;  ///< sine of the first kept sample, and between samples
 };
 
-/// The size of one eye's film.
+/// Dimensions of a viewpoint's film.
 struct FilmSize {
     SineGrid sines;                           ///< at which the band is resampled
-    std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< of the pupil, in steps of the transform's frequencies
+    std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< radius of the pupil, in steps of the transform's frequencies
     FilmAxis x, y;
-    /// The columns and the rows of the sines that the band lights, [begin, end).
+    /// Columns and rows of the sines that the band reaches, [begin, end).
     std::size_t active_left = 0, active_right = 0, active_low = 0, active_high = 0;
     std::size_t band_rows = 0;
 
     /// @param shown  film_area()
     FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
              double blur, double samples = samples_a_cell);
-    /// Bytes of a pupil's wave, and the maximum that Film::pupil_wave() and expose() need in addition to their results.
+    /// Return the bytes of a pupil wave, and the maximum that Film::pupil_wave() and expose() need in addition to their
+    /// results.
     double pupil_bytes() const;
     double work_bytes() const;
-    /// Bytes of a camera's intensities.
+    /// Returns the bytes of a camera's intensities.
     double intensity_bytes() const;
 };
 
 /// The wave over a pupil, see Film::pupil_wave().
 using PupilWave = Array<math::PackedComplex, 2>;
 
-/// From one eye's narrow band to photographs: a resampling to direction sines and one transform to the pupil; then for
-/// each focus and size of the pupil a mask with a defocus phase, and a transform back to the film (docs/notation.md
-/// section 4). The pupil covers a quarter of the band in x and in y, so its wave is small, and both transforms are
-/// limited to it. The period of the sines is so wide that no light that a camera follows wraps around (SpreadWindow);
-/// of the sines only those that the band lights are computed, and of the film only what is shown. Each step
-/// works on all threads.
+/// Film of a viewpoint, from its narrow band to photographs (docs/notation.md section 4). The band is resampled to
+/// direction sines, and one transform leads to the pupil. For each focus and size of the pupil a mask with a defocus
+/// phase follows, and a transform back to the film.
+///
+/// The pupil covers a quarter of the band in x and in y, so its wave is small, and both transforms are limited to it.
+/// The period of the sines is wide enough that no light that a camera follows wraps around (SpreadWindow). Only the
+/// sines that the band reaches and the shown part of the film are computed. Each step works on all threads.
 class Film {
   public:
-    /// @param shown  film_area() of these cameras: the hologram and what their pictures show beside it
-    /// @param pupil  the widest of the cameras that will be used, at most that of the band
-    /// @param blur   the widest defocus_blur() of these cameras
+    /// @param shown    film_area() of these cameras: the hologram and the visible surroundings
+    /// @param pupil    the widest of these cameras, at most that of the band
+    /// @param blur     the widest defocus_blur() of these cameras
     /// @param samples  of the film per resolution cell
     Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
          double blur, double samples = samples_a_cell);
 
-    /// A film that is not exposed yet: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
+    /// Returns an unexposed film: blocks of sixteen columns, [column / 16][row · 16 + column mod 16].
     Array<float, 2> unexposed() const {
         return Array<float, 2>({optics::blocks_of(size_.x.count), size_.y.count * optics::block_lines});
     }
 
-    /// The wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen rows,
-    /// [row / 16][column][row mod 16], zero beyond the last row.
+    /// Returns the wave over the pupil, at frequencies −reach … reach of a transform of the sines: blocks of sixteen
+    /// rows, [row / 16][column][row mod 16], zero beyond the last row.
     PupilWave pupil_wave(const PackedBand& band) const;
 
-    /// Adds the intensities of several looks, each given by its pupil wave, on a camera's film, of the shape of
-    /// unexposed(). The lens is computed once for all of them.
+    /// Adds the intensities of several looks, each given by its pupil wave, to a camera's film with the shape of
+    /// unexposed(). All looks share the computation of the lens.
     void expose(std::span<const PupilWave> pupil_waves, const Camera& camera, View<float, 2> intensity) const;
 
-    /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane, as far as the film shows it.
-    /// @param weight  factor of the intensities: the reciprocal of the number of looks that they sum
+    /// Adds a camera's picture, in radiance, of the part `shown` of the hologram plane, within the film.
+    /// @param weight  factor of the intensities: the reciprocal of the number of summed looks
     void develop(View<const float, 2> blocks, const Camera& camera, const Rectangle& shown, double weight,
                  Image& picture) const;
 
   private:
-    // Arrays that are used again for each look, because new ones would be cleared.
+    // Arrays reused for each look, because the system would clear new ones.
     struct Scratch {
-        // [sine x that is lit / 16][row of the band / 16][sine x mod 16][part][row mod 16]
+        // [active sine x / 16][row of the band / 16][sine x mod 16][part][row mod 16]
         Array<float, 3> columns;
-        Array<float, 2> half;          // [frequency y / 16][sine x that is lit][part][frequency y mod 16]
+        Array<float, 2> half;          // [frequency y / 16][active sine x][part][frequency y mod 16]
         Array<float, 2> film_columns;  // [column of the film / 16][frequency y][part][column mod 16]
     };
 
-    // A camera's lens for light from the middle of a part of the film, and the share of the part in the film's light.
+    // A camera's lens for light from the middle of a part of the film, and the weight of the part in the film's light.
     struct Node {
         Array<float, 2> lens;  // [row / 16][column][part][row mod 16], of the rows and columns below
         std::ptrdiff_t reach_x = 0;
         std::size_t first_block = 0;  // of rows
-        Array<float, 1> share_x;      // filled up to a multiple of sixteen
+        Array<float, 1> share_x;      // padded to a multiple of sixteen
         std::vector<float> share_y;
     };
 
@@ -115,9 +117,9 @@ class Film {
     narrow_band::BandGrid band_;
     FieldGrid hologram_;
     FilmSize size_;
-    math::SplitFft along_, down_;            // of the sines
-    math::SplitFft film_along_, film_down_;  // of the film
-    // Where transforms leave the frequencies and the film's samples that are kept.
+    math::SplitFft fft_x_, fft_y_;            // of the sines
+    math::SplitFft film_fft_x_, film_fft_y_;  // of the film
+    // Indices at which the transforms store the frequencies and film samples that are kept.
     std::vector<std::uint32_t> frequencies_x_, frequencies_y_, film_x_, film_y_;
     std::unique_ptr<core::ObjectPool<Scratch>> scratch_;
 };

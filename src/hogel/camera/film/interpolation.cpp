@@ -8,7 +8,7 @@
 namespace hogel::camera::film {
 namespace {
 
-// The weights at a place z from the middle.
+// Returns the weights at a position z from the middle.
 template <std::size_t taps>
 std::array<double, taps> kaiser_weights(double z) {
     constexpr double beta = 5, half_width = 0.5 * taps;
@@ -16,8 +16,8 @@ std::array<double, taps> kaiser_weights(double z) {
     double sum = 0;
     for (std::size_t k = 0; k < taps; ++k) {
         const double distance = z - (static_cast<double>(k) - half_width + 0.5);
-        const double relative = distance / half_width, turn = std::numbers::pi * distance;
-        const double sinc = std::abs(turn) < 1e-9 ? 1 : std::sin(turn) / turn;
+        const double relative = distance / half_width, angle = std::numbers::pi * distance;
+        const double sinc = std::abs(angle) < 1e-9 ? 1 : std::sin(angle) / angle;
         weights[k] = sinc * math::bessel_i0(beta * std::sqrt(std::max(0.0, 1 - relative * relative)));
         sum += weights[k];
     }
@@ -29,23 +29,23 @@ std::array<double, taps> kaiser_weights(double z) {
 
 template <std::size_t count>
 KaiserPoints<count>::KaiserPoints() {
-    // Polynomials through as many Chebyshev points as they have terms, by Newton's divided differences, multiplied out.
-    std::array<double, terms> place;
+    // Polynomials through as many Chebyshev points as terms, by Newton's divided differences, multiplied out.
+    std::array<double, terms> point;
     for (std::size_t i = 0; i < terms; ++i)
-        place[i] = 0.5 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / terms);
+        point[i] = 0.5 * std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / terms);
     std::array<std::array<double, taps>, terms> difference;
-    for (std::size_t i = 0; i < terms; ++i) difference[i] = kaiser_weights<taps>(place[i]);
+    for (std::size_t i = 0; i < terms; ++i) difference[i] = kaiser_weights<taps>(point[i]);
     for (std::size_t order = 1; order < terms; ++order)
         for (std::size_t i = terms; i-- > order;)
             for (std::size_t k = 0; k < taps; ++k)
-                difference[i][k] = (difference[i][k] - difference[i - 1][k]) / (place[i] - place[i - order]);
+                difference[i][k] = (difference[i][k] - difference[i - 1][k]) / (point[i] - point[i - order]);
     for (std::size_t k = 0; k < taps; ++k) {
         std::array<double, terms> sum{}, product{1};
         for (std::size_t i = 0; i < terms; ++i) {
             for (std::size_t p = 0; p <= i; ++p) sum[p] += difference[i][k] * product[p];
-            // product · (z − place)
+            // product · (z − point)
             for (std::size_t p = std::min(i + 2, terms); p-- > 0;)
-                product[p] = (p > 0 ? product[p - 1] : 0) - place[i] * product[p];
+                product[p] = (p > 0 ? product[p - 1] : 0) - point[i] * product[p];
         }
         for (std::size_t p = 0; p < terms; ++p) coefficients_[p][k] = static_cast<float>(sum[p]);
     }

@@ -13,14 +13,14 @@
 
 namespace hogel::camera::film {
 
-/// A windowed sinc as an interpolation kernel, tabulated by the fraction of a sample: twelve taps around a position
+/// Table of a windowed sinc as an interpolation kernel, by the fraction of a sample: twelve taps around a position
 /// between two samples. A band-limited signal changes by less than 1e-3 of its value over half a table step.
 class InterpolationTable {
   public:
     static constexpr std::ptrdiff_t taps = 12;
-    static constexpr std::ptrdiff_t before = 5;  ///< taps before the sample left of a place
+    static constexpr std::ptrdiff_t before = 5;  ///< taps before the sample left of the position
     static constexpr double half_width = 6;
-    /// Cycles per sample that are passed; their images, from 1 − pass on, are stopped.
+    /// Passband in cycles per sample; the stop band of the images begins at 1 − pass.
     static constexpr double pass = 0.3125;
     static constexpr std::size_t phases = 1024;
 
@@ -34,7 +34,7 @@ class InterpolationTable {
             }
     }
 
-    /// The weights for a fraction of a sample, in steps of the table: 0 … phases.
+    /// Returns the weights for a fraction of a sample, in steps of the table: 0 … phases.
     const float* weights_of_phase(std::size_t phase) const { return &weights_[phase * taps]; }
     const float* weights(double fraction) const {
         // A fraction is not negative, and lround would be a call for each sample.
@@ -42,13 +42,14 @@ class InterpolationTable {
         return weights_of_phase(static_cast<std::size_t>(fraction * phases + 0.5));
     }
 
-    /// The value of line[…] (count values, zero outside) at a position between samples.
-    std::complex<float> at(const std::complex<float>* line, std::size_t count, double place) const {
-        const double whole = std::floor(place);
-        return at(line, count, whole, place - whole);
+    /// Returns the value of line[…] (count values, zero outside) at a position between samples.
+    std::complex<float> at(const std::complex<float>* line, std::size_t count, double position) const {
+        const double floor_position = std::floor(position);
+        return at(line, count, floor_position, position - floor_position);
     }
-    std::complex<float> at(const std::complex<float>* line, std::size_t count, double whole, double fraction) const {
-        const auto first = static_cast<std::ptrdiff_t>(whole) - before;
+    std::complex<float> at(const std::complex<float>* line, std::size_t count, double floor_position,
+                           double fraction) const {
+        const auto first = static_cast<std::ptrdiff_t>(floor_position) - before;
         const float* w = weights(fraction);
         float re = 0, im = 0;
         for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, -first);
@@ -63,22 +64,23 @@ class InterpolationTable {
     std::vector<float> weights_;
 };
 
-/// The place of point `point` of `count` (even) in a pixel of −1/2 … 1/2: Gauss' two points in each of count/2 parts.
-inline double gauss_place(std::size_t point, std::size_t count) {
+/// Returns the position of point `point` of `count` (even) in a pixel of −1/2 … 1/2: two Gauss points in each of
+/// count/2 parts.
+inline double gauss_position(std::size_t point, std::size_t count) {
     constexpr double inner = 0.28867513459481287;  // 1/√12
     const std::size_t part = point / 2;
     const double middle = static_cast<double>(part) + 0.5 + (point % 2 == 0 ? -inner : inner);
     return 2 * middle / static_cast<double>(count) - 0.5;
 }
 
-/// The number of Gauss' points across a pixel that make the mean of an intensity exact to 3·10⁻⁴ at the middle of its
+/// Returns the number of Gauss points across a pixel for a mean intensity exact to 3·10⁻⁴ at the middle of its
 /// frequencies: two for each 5/8 of a resolution cell.
 inline std::size_t gauss_points(double pixel_in_cells) {
     return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(1.6 * pixel_in_cells)));
 }
 
-/// Interpolation of intensities and of waves between neighbours: a Kaiser-windowed sinc (β = 5), normalised to keep
-/// constants, as polynomials of the place between the two middle samples.
+/// Interpolation of intensities and waves between neighbours: a Kaiser-windowed sinc (β = 5), normalised to keep
+/// constants, as polynomials of the position between the two middle samples.
 template <std::size_t count>
 class KaiserPoints {
   public:
@@ -87,8 +89,8 @@ class KaiserPoints {
     KaiserPoints();
     static const KaiserPoints& table();
 
-    /// Weight k is Σ_p z^p coefficients()[p][k], with z = −1/2 … 1/2 the place from the middle between the two samples
-    /// in the middle.
+    /// Weight k is Σ_p z^p coefficients()[p][k], with the position z = −1/2 … 1/2 relative to the midpoint of the two
+    /// middle samples.
     const std::array<std::array<float, taps>, terms>& coefficients() const { return coefficients_; }
 
     std::array<float, taps> weights(float z) const {
@@ -102,33 +104,35 @@ class KaiserPoints {
     std::array<std::array<float, taps>, terms> coefficients_;
 };
 
-/// Interpolate the intensity behind a pupil, speckle, to −51 dB of its variation where it is sampled 3.2 times per
-/// resolution cell, and to −55 dB where it is sampled 2.4 times.
+/// Interpolations of the intensity behind a pupil, speckle: to −51 dB of its variation at 3.2 samples per resolution
+/// cell, and to −55 dB at 2.4 samples.
 using SixPoint = KaiserPoints<6>;
 using TwelvePoint = KaiserPoints<12>;
 
-/// Interpolation of value(0 … count − 1), zero where not all neighbours exist. Values may be complex.
+/// Interpolates value(0 … count − 1). Returns zero where not all neighbours exist. Values may be complex.
 template <class Points, class Value>
-auto smooth_at(std::size_t count, double place, const Value& value) {
+auto smooth_at(std::size_t count, double position, const Value& value) {
     using Result = std::decay_t<decltype(value(0))>;
-    const double whole = std::floor(place);
-    if (!(whole >= Points::before && whole + Points::after < static_cast<double>(count))) return Result{};
-    const std::size_t first = static_cast<std::size_t>(whole) - Points::before;
-    const auto w = Points::table().weights(static_cast<float>(place - whole) - 0.5f);
+    const double floor_position = std::floor(position);
+    if (!(floor_position >= Points::before && floor_position + Points::after < static_cast<double>(count)))
+        return Result{};
+    const std::size_t first = static_cast<std::size_t>(floor_position) - Points::before;
+    const auto w = Points::table().weights(static_cast<float>(position - floor_position) - 0.5f);
     Result sum{};
     for (std::size_t k = 0; k < Points::taps; ++k) sum += w[k] * value(first + k);
     return sum;
 }
 
-/// The same in two dimensions, for value(row, column).
+/// Interpolates in two dimensions, for value(row, column).
 template <class Points, class Value>
 auto smooth_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
     using Result = std::decay_t<decltype(value(0, 0))>;
-    // The weights along a row are the same for all rows.
-    const double whole = std::floor(column);
-    if (!(whole >= Points::before && whole + Points::after < static_cast<double>(width))) return Result{};
-    const std::size_t first = static_cast<std::size_t>(whole) - Points::before;
-    const auto w = Points::table().weights(static_cast<float>(column - whole) - 0.5f);
+    // All rows have the same weights along a row.
+    const double floor_position = std::floor(column);
+    if (!(floor_position >= Points::before && floor_position + Points::after < static_cast<double>(width)))
+        return Result{};
+    const std::size_t first = static_cast<std::size_t>(floor_position) - Points::before;
+    const auto w = Points::table().weights(static_cast<float>(column - floor_position) - 0.5f);
     return smooth_at<Points>(height, row, [&](std::size_t j) {
         Result sum{};
         for (std::size_t k = 0; k < Points::taps; ++k) sum += w[k] * value(j, first + k);

@@ -90,8 +90,8 @@ TEST_P(FilmLanes, vector_and_plain_intensities_agree) {
 TEST_P(FilmLanes, vector_and_plain_rows_side_by_side_agree) {
     const Array<math::PackedComplex, 1> squares = packed_noise(3 * together * together, 7);
     Array<float, 1> fast({3 * together * row}), plain({3 * together * row});
-    side_by_side(squares.data(), 3, fast.data());
-    side_by_side_plain(squares.data(), 3, plain.data());
+    interleave_rows(squares.data(), 3, fast.data());
+    interleave_rows_plain(squares.data(), 3, plain.data());
     expect_near(fast, plain);
     // Column 5 of row 2 of the second square.
     const std::complex<float> value = math::unpacked(squares(together * together + 2 * together + 5));

@@ -13,13 +13,14 @@
 
 namespace hogel::camera::film {
 
-/// The cosine of a direction. In the corner of a film that no direction reaches, next to nothing.
+/// Returns the cosine of a direction, and a tiny number in a corner of a film that no direction reaches.
 inline double cosine_of(double sine_x, double sine_y) {
     return std::sqrt(std::max(1 - sine_x * sine_x - sine_y * sine_y, 1e-12));
 }
 
-/// The path of light to the point q = c + δ of the pupil from the point x in direction sine (n_x, n_y), `distance_z` in
-/// front of the lens, minus the path to the pupil's centre c and the term linear in δ: exactly |x − q| − |x − c| + n·δ.
+/// Returns the path of light to the point q = c + δ of the pupil from the point x in direction sine (n_x, n_y),
+/// `distance_z` in front of the lens, minus the path to the pupil's centre c and the term linear in δ: exactly |x − q|
+/// − |x − c| + n·δ.
 inline double path(double sine_x, double sine_y, double distance_z, double delta_x, double delta_y) {
     const double r = distance_z / cosine_of(sine_x, sine_y);
     const double along = sine_x * delta_x + sine_y * delta_y, square = delta_x * delta_x + delta_y * delta_y;
@@ -28,14 +29,15 @@ inline double path(double sine_x, double sine_y, double distance_z, double delta
     return change / (std::sqrt(r * r + change) + r) + along;
 }
 
-/// The largest distance of the pupil's disc from the middle of its plane of frequencies: light in direction n that
-/// enters the pupil at δ has a frequency that differs from δ/λ by at most 3δ²/4Rλ, for eyes up to 55° off the axis.
+/// Returns the largest distance of the pupil's disc from the middle of its plane of frequencies. Light in direction n
+/// that enters the pupil at δ has a frequency that differs from δ/λ by at most 3δ²/4Rλ, for viewpoints up to 55° off
+/// the axis.
 inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
 
-/// The distance in the pupil's plane, metres, between the frequencies of a transform over a range of sines.
+/// Returns the distance in the pupil's plane, metres, between the frequencies of a transform over a range of sines.
 inline double pupil_step(double wavelength, double period) { return wavelength / period; }
 
-/// The window of the point spread of a camera on a film.
+/// Returns the window of a camera's PSF on a film.
 inline optics::SpreadWindow spread_window(const SineGrid& sines, double wavelength, double pupil, double blur) {
     optics::SpreadWindow window(sines.shown_x.span(), sines.shown_y.span(), blur, wavelength / pupil);
     window.fit(sines.room() - 0.5 * blur);
@@ -43,11 +45,12 @@ inline optics::SpreadWindow spread_window(const SineGrid& sines, double waveleng
 }
 
 /// A camera's lens at the frequencies of the transform. Around the direction n, light that enters the pupil at δ has
-/// the frequency (δ − ∇_n Q)/λ in the sines, with Q the path without the term linear in δ; so the disc is slightly
-/// distorted in the plane of frequencies, more so for oblique light. The defocus phase depends slowly on the direction;
-/// the film is divided among nodes, each with its own phase, enough of them for the phase to vary by at most half a
-/// radian within one. Where the plane in focus is tilted, the phase varies from one side to the other: by a fifth of a
-/// radian from node to node, and the outermost nodes are at the sides.
+/// the frequency (δ − ∇_n Q)/λ in the sines, with Q the path without the term linear in δ. So the disc is slightly
+/// distorted in the plane of frequencies, more so for oblique light.
+///
+/// The defocus phase depends slowly on the direction. The film is divided among nodes with a phase each, so many that
+/// the phase varies by at most half a radian within one. For a tilted plane in focus, the phase varies from side to
+/// side: by a fifth of a radian from node to node, and the outermost nodes are at the sides.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)
@@ -66,65 +69,69 @@ class FilmLens {
 
     std::size_t nodes_x = 1, nodes_y = 1;
 
-    // The sine at a node.
-    double node_x(std::size_t i) const { return sines_.shown_x.low + sines_.shown_x.span() * part_of_node(i, nodes_x); }
-    double node_y(std::size_t j) const { return sines_.shown_y.low + sines_.shown_y.span() * part_of_node(j, nodes_y); }
-
-    // Where a part of the range of sines, 0 to 1, is among the nodes, counted from the first.
-    double among_nodes(double part, std::size_t nodes) const {
-        const auto n = static_cast<double>(nodes);
-        return std::clamp(tilted_ ? part * (n - 1) : part * n - 0.5, 0.0, n - 1);
+    // Return the sine at a node.
+    double node_x(std::size_t i) const {
+        return sines_.shown_x.low + sines_.shown_x.span() * node_fraction(i, nodes_x);
+    }
+    double node_y(std::size_t j) const {
+        return sines_.shown_y.low + sines_.shown_y.span() * node_fraction(j, nodes_y);
     }
 
-    // The largest offset from the middle of the pupil that passes light, in steps.
+    // Returns the position among the nodes, counted from the first, of a fraction of the range of sines, 0 to 1.
+    double node_position(double fraction, std::size_t nodes) const {
+        const auto n = static_cast<double>(nodes);
+        return std::clamp(tilted_ ? fraction * (n - 1) : fraction * n - 0.5, 0.0, n - 1);
+    }
+
+    // Return the largest offset from the middle of the pupil that transmits light, in steps.
     std::ptrdiff_t reach_x() const { return reach(step_x_, sines_.size_x); }
     std::ptrdiff_t reach_y() const { return reach(step_y_, sines_.size_y); }
 
-    // The area, m², by which intensities are divided: that of the disc. Where the window is narrower than the hologram,
-    // the light that it leaves out is made up for by what is in it.
+    // Returns the area, m², that divides intensities: that of the disc. Where the window is narrower than the hologram,
+    // the light in it makes up for the omitted light.
     double area() const {
         const double lost =
             optics::light_left_out(window_, sines_.x.span(), sines_.y.span(), wavelength_ / camera_.pupil);
         return std::numbers::pi * radius_ * radius_ * (1 - lost);
     }
 
-    // Sixteen rows of the pupil from `first` on, for light from the direction (n_x, n_y), at the columns −reach …
-    // reach: [column][part][row], zero outside the disc.
+    // Computes sixteen rows of the pupil from `first` on, for light from the direction (n_x, n_y), at the columns
+    // −reach … reach: [column][part][row], zero outside the disc.
     void rows(double nx, double ny, std::ptrdiff_t first, std::ptrdiff_t reach, float* out) const {
-        const Direction from(nx, ny);
+        const Direction direction(nx, ny);
         const double scale = 1 / (static_cast<double>(sines_.size_x) * static_cast<double>(sines_.size_y));
-        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach(), in_focus = ratio(nx, ny);
+        const double max_radius = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach(),
+                     in_focus = ratio(nx, ny);
         LensStretch stretch;
         stretch.inner = std::max(0.0, radius_ - edge_.reach());
-        // All that changes along a row is smooth: the square of the distance from the middle of the pupil, the weight
-        // of what passes and the phase are parabolas over a stretch of at most 32 steps and a hundredth of the
-        // distance.
-        const auto longest = static_cast<std::size_t>(std::clamp(0.01 * camera_.eye.z / step_x_, 2.0, 32.0));
+        // Along a row everything is smooth: the squared distance from the middle of the pupil, the weight of the
+        // transmission and the phase are parabolas over a stretch of at most 32 steps and a hundredth of the distance.
+        const auto max_columns = static_cast<std::size_t>(std::clamp(0.01 * camera_.eye.z / step_x_, 2.0, 32.0));
         const auto columns = static_cast<std::size_t>(2 * reach + 1);
-        for (std::size_t begin = 0; begin < columns; begin += longest) {
-            stretch.columns = std::min(longest, columns - begin);
-            bool any = false;
+        for (std::size_t begin = 0; begin < columns; begin += max_columns) {
+            stretch.columns = std::min(max_columns, columns - begin);
+            bool any_inside = false;
             for (std::size_t row = 0; row < optics::block_lines; ++row) {
                 const double dy = step_y_ * static_cast<double>(first + static_cast<std::ptrdiff_t>(row));
                 double squares[3], weights[3], cycles[3];
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const double step = static_cast<double>(begin) + 0.5 * static_cast<double>(longest * i);
+                    const double step = static_cast<double>(begin) + 0.5 * static_cast<double>(max_columns * i);
                     const double dx = step_x_ * (step - static_cast<double>(reach));
-                    const Place at = place(from, dx, dy);
-                    squares[i] = at.x * at.x + at.y * at.y;
+                    const PupilPoint point = pupil_point(direction, dx, dy);
+                    squares[i] = point.x * point.x + point.y * point.y;
                     // The amplitude transmission within the disc is (cos θ_n/cos θ_m)², which combines the density of
                     // frequencies there and the intensity of light from a nearer point.
-                    weights[i] = scale * from.cosine * from.cosine / (at.cosine * at.cosine);
-                    cycles[i] = defocus(nx, ny, in_focus, at.x, at.y);
-                    any = any || dx * dx + dy * dy <= widest * widest;
+                    weights[i] = scale * direction.cosine * direction.cosine / (point.cosine * point.cosine);
+                    cycles[i] = defocus(nx, ny, in_focus, point.x, point.y);
+                    any_inside = any_inside || dx * dx + dy * dy <= max_radius * max_radius;
                 }
-                stretch.set(row, squares, weights, cycles, static_cast<double>(longest));
+                stretch.set(row, squares, weights, cycles, static_cast<double>(max_columns));
             }
-            float* const to = out + 2 * optics::block_lines * begin;
-            if (any)
-                lens_stretch(stretch, edge_, radius_, to);
+            float* const destination = out + 2 * optics::block_lines * begin;
+            if (any_inside)
+                lens_stretch(stretch, edge_, radius_, destination);
             else
-                std::fill_n(to, 2 * optics::block_lines * stretch.columns, 0.0f);
+                std::fill_n(destination, 2 * optics::block_lines * stretch.columns, 0.0f);
         }
     }
 
@@ -136,45 +143,45 @@ class FilmLens {
         double x, y, cosine;
     };
 
-    struct Place {
+    struct PupilPoint {
         double x, y;    // in the pupil
         double cosine;  // cosine of the light's direction there
     };
 
-    // The point of the pupil at which light around direction n with the frequency (fx/λ, fy/λ) in the sines enters.
+    // Returns the point of the pupil that light around direction n with the frequency (fx/λ, fy/λ) in the sines enters.
     // Seen from there, the point of the hologram in direction n is exactly in direction m = n − (f − n (n·f)) cos θ/R.
-    Place place(const Direction& n, double fx, double fy) const {
+    PupilPoint pupil_point(const Direction& n, double fx, double fy) const {
         const double R = camera_.eye.z, along = n.x * fx + n.y * fy, step = n.cosine / R;
         const double mx = n.x - step * (fx - n.x * along), my = n.y - step * (fy - n.y * along);
         const double cosine = cosine_of(mx, my);
         return {R * (n.x / n.cosine - mx / cosine), R * (n.y / n.cosine - my / cosine), cosine};
     }
 
-    double part_of_node(std::size_t i, std::size_t nodes) const {
-        const auto at = static_cast<double>(i), n = static_cast<double>(nodes);
-        return tilted_ && nodes > 1 ? at / (n - 1) : (at + 0.5) / n;
+    double node_fraction(std::size_t i, std::size_t nodes) const {
+        const auto index = static_cast<double>(i), n = static_cast<double>(nodes);
+        return tilted_ && nodes > 1 ? index / (n - 1) : (index + 0.5) / n;
     }
 
     std::ptrdiff_t reach(double step, std::size_t size) const {
-        const double widest = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach();
-        return std::min(static_cast<std::ptrdiff_t>(widest / step) + 1, static_cast<std::ptrdiff_t>(size - 1) / 2);
+        const double max_radius = frequency_radius(camera_.pupil, camera_.eye.z) + edge_.reach();
+        return std::min(static_cast<std::ptrdiff_t>(max_radius / step) + 1, static_cast<std::ptrdiff_t>(size - 1) / 2);
     }
 
-    // Phase in cycles, for a plane in focus `ratio` times as far away as the hologram.
+    // Returns the phase in cycles for a plane in focus `ratio` times as far away as the hologram.
     double defocus(double nx, double ny, double ratio, double dx, double dy) const {
         if (ratio == 1) return 0;
         const double R = camera_.eye.z;
         return (path(nx, ny, R, dx, dy) - path(nx, ny, ratio * R, dx, dy)) / wavelength_;
     }
 
-    // focus_ratio() in a direction of the picture; outside the picture that of its edge.
+    // Returns focus_ratio() in a direction of the picture, and that of its edge outside the picture.
     double ratio(double nx, double ny) const {
-        const double reach = camera_.eye.z / cosine_of(nx, ny);
+        const double distance = camera_.eye.z / cosine_of(nx, ny);
         const Grid& picture = camera_.picture;
         const double half_x = 0.5 * picture.size_x(), half_y = 0.5 * picture.size_y();
         return focus_ratio(
-            camera_, std::clamp(camera_.eye.x + reach * nx, picture.center_x - half_x, picture.center_x + half_x),
-            std::clamp(camera_.eye.y + reach * ny, picture.center_y - half_y, picture.center_y + half_y));
+            camera_, std::clamp(camera_.eye.x + distance * nx, picture.center_x - half_x, picture.center_x + half_x),
+            std::clamp(camera_.eye.y + distance * ny, picture.center_y - half_y, picture.center_y + half_y));
     }
 
     std::size_t nodes_for(double ux, double uy) const {
@@ -183,15 +190,15 @@ class FilmLens {
         double change = 0;
         for (double a : {0.0, 0.25, 0.5, 0.75}) {
             const double dx = radius_ * std::cos(std::numbers::pi * a), dy = radius_ * std::sin(std::numbers::pi * a);
-            const auto at = [&](double part) {
-                const double nx = mid_x + part * ux, ny = mid_y + part * uy;
+            const auto phase_at = [&](double fraction) {
+                const double nx = mid_x + fraction * ux, ny = mid_y + fraction * uy;
                 return defocus(nx, ny, ratio(nx, ny), dx, dy);
             };
-            change = std::max(change, std::abs(at(0.5) - at(-0.5)));
+            change = std::max(change, std::abs(phase_at(0.5) - phase_at(-0.5)));
         }
         const double radians = 2 * std::numbers::pi * change;
-        constexpr double alike = 0.02;
-        if (tilted_ && radians > alike)
+        constexpr double negligible = 0.02;
+        if (tilted_ && radians > negligible)
             return static_cast<std::size_t>(std::min(std::ceil(radians / 0.2) + 1, max_tilted_nodes));
         return static_cast<std::size_t>(std::clamp(std::ceil(radians / 0.5), 1.0, max_nodes));
     }

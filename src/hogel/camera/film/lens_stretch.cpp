@@ -10,7 +10,7 @@
 namespace hogel::camera::film {
 namespace {
 
-// a + b t + c t² through values at 0, length/2 and length.
+// The parabola a + b t + c t² through values at 0, length/2 and length.
 struct Parabola {
     Parabola(const double (&values)[3], double length)
         : a(values[0]),
@@ -18,34 +18,36 @@ struct Parabola {
           b((values[2] - values[0]) / length - c * length) {}
     double a, c, b;
 
-    void put(std::size_t row, LensStretch::Parabolas& all) const {
-        all.a[row] = static_cast<float>(a);
-        all.b[row] = static_cast<float>(b);
-        all.c[row] = static_cast<float>(c);
+    void store(std::size_t row, LensStretch::Parabolas& parabolas) const {
+        parabolas.a[row] = static_cast<float>(a);
+        parabolas.b[row] = static_cast<float>(b);
+        parabolas.c[row] = static_cast<float>(c);
     }
 };
 
-void put(std::complex<double> value, std::size_t row, LensStretch::Phasors& all) {
-    all.re[row] = static_cast<float>(value.real());
-    all.im[row] = static_cast<float>(value.imag());
+void store(std::complex<double> value, std::size_t row, LensStretch::Phasors& phasors) {
+    phasors.re[row] = static_cast<float>(value.real());
+    phasors.im[row] = static_cast<float>(value.imag());
 }
 
-float at(const LensStretch::Parabolas& all, std::size_t row, float t) {
-    return (all.c[row] * t + all.b[row]) * t + all.a[row];
+float evaluate(const LensStretch::Parabolas& parabolas, std::size_t row, float t) {
+    return (parabolas.c[row] * t + parabolas.b[row]) * t + parabolas.a[row];
 }
 
-std::complex<double> phasor(const LensStretch::Phasors& all, std::size_t row) { return {all.re[row], all.im[row]}; }
+std::complex<double> phasor(const LensStretch::Phasors& phasors, std::size_t row) {
+    return {phasors.re[row], phasors.im[row]};
+}
 
 }  // namespace
 
 void LensStretch::set(std::size_t row, const double (&squares)[3], const double (&weights)[3],
                       const double (&cycles)[3], double length) {
-    Parabola(squares, length).put(row, square);
-    Parabola(weights, length).put(row, weight);
+    Parabola(squares, length).store(row, square);
+    Parabola(weights, length).store(row, weight);
     const Parabola phase(cycles, length);
-    put(optics::unit_phasor(phase.a), row, value);
-    put(optics::unit_phasor(phase.b + phase.c), row, step);
-    put(optics::unit_phasor(2 * phase.c), row, bend);
+    store(optics::unit_phasor(phase.a), row, value);
+    store(optics::unit_phasor(phase.b + phase.c), row, step);
+    store(optics::unit_phasor(2 * phase.c), row, bend);
 }
 
 void lens_stretch_plain(const LensStretch& stretch, const optics::PupilEdge& edge, double radius, float* out) {
@@ -53,9 +55,9 @@ void lens_stretch_plain(const LensStretch& stretch, const optics::PupilEdge& edg
         std::complex<double> value = phasor(stretch.value, row), step = phasor(stretch.step, row);
         for (std::size_t column = 0; column < stretch.columns; ++column) {
             const auto t = static_cast<float>(column);
-            const double distance = std::sqrt(std::max(0.0f, at(stretch.square, row, t)));
-            const double passes = distance < stretch.inner ? 1 : edge.transmission(radius - distance);
-            const std::complex<double> factor = at(stretch.weight, row, t) * passes * value;
+            const double distance = std::sqrt(std::max(0.0f, evaluate(stretch.square, row, t)));
+            const double transmission = distance < stretch.inner ? 1 : edge.transmission(radius - distance);
+            const std::complex<double> factor = evaluate(stretch.weight, row, t) * transmission * value;
             out[2 * column * optics::block_lines + row] = static_cast<float>(factor.real());
             out[(2 * column + 1) * optics::block_lines + row] = static_cast<float>(factor.imag());
             value = optics::times(value, step);

@@ -8,18 +8,18 @@
 
 namespace hogel::camera::film {
 
-/// A stretch of columns of sixteen rows of a lens, over which the square of the distance from the middle of the pupil,
-/// the weight of what passes and the phase are parabolas.
+/// A stretch of columns of sixteen rows of a lens, over which the squared distance from the middle of the pupil, the
+/// weight of the transmission and the phase are parabolas.
 struct LensStretch {
     std::size_t columns = 0;
-    double inner = 0;  ///< the distance from the middle of the pupil up to which all light passes, metres
+    double inner = 0;  ///< distance from the middle of the pupil within which all light passes, metres
 
     /// a + b t + c t² of each row, for column t.
     struct Parabolas {
         alignas(64) float a[optics::block_lines], b[optics::block_lines], c[optics::block_lines];
     };
     Parabolas square, weight;
-    /// Phasors of each row: of the first column, from it to the next one, and by how much that turns from column to
+    /// Phasors of each row: of the first column, of the step to the next column, and of the change of that step per
     /// column.
     struct Phasors {
         alignas(64) float re[optics::block_lines], im[optics::block_lines];
@@ -31,7 +31,7 @@ struct LensStretch {
              double length);
 };
 
-/// The lens, [column][part][row]. Plain and fast twins agree to 1e-4 of the weight.
+/// Computes the lens, [column][part][row]. Plain and fast twins agree to 1e-4 of the weight.
 /// @param radius  of the pupil, metres
 void lens_stretch_plain(const LensStretch& stretch, const optics::PupilEdge& edge, double radius, float* out);
 extern decltype(lens_stretch_plain)& lens_stretch;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of lens_stretch.cpp, compiled for every SIMD target and chosen when first called.
+// Vector twin of lens_stretch.cpp, compiled for every SIMD target and chosen when first called.
 #include <cmath>
 
 #include "hogel/camera/film/lens_stretch.h"
@@ -12,25 +12,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, optics::block_lines>;
 using V = hn::Vec<D>;
 
-// Some of sixteen parabolas.
+// A vector of the sixteen parabolas.
 struct Parabola {
     V a, b, c;
 
-    Parabola(const LensStretch::Parabolas& all, std::size_t row)
-        : a(hn::Load(D(), all.a + row)), b(hn::Load(D(), all.b + row)), c(hn::Load(D(), all.c + row)) {}
+    Parabola(const LensStretch::Parabolas& source, std::size_t row)
+        : a(hn::Load(D(), source.a + row)), b(hn::Load(D(), source.b + row)), c(hn::Load(D(), source.c + row)) {}
     HWY_INLINE V at(V t) const { return hn::MulAdd(hn::MulAdd(c, t, b), t, a); }
 };
 
-// Some of sixteen phasors.
+// A vector of the sixteen phasors.
 struct Phasor {
     V re, im;
 
-    Phasor(const LensStretch::Phasors& all, std::size_t row)
-        : re(hn::Load(D(), all.re + row)), im(hn::Load(D(), all.im + row)) {}
-    HWY_INLINE void turn(const Phasor& by) {
-        const V turned = hn::NegMulAdd(im, by.im, hn::Mul(re, by.re));
-        im = hn::MulAdd(re, by.im, hn::Mul(im, by.re));
-        re = turned;
+    Phasor(const LensStretch::Phasors& source, std::size_t row)
+        : re(hn::Load(D(), source.re + row)), im(hn::Load(D(), source.im + row)) {}
+    HWY_INLINE void rotate(const Phasor& factor) {
+        const V rotated = hn::NegMulAdd(im, factor.im, hn::Mul(re, factor.re));
+        im = hn::MulAdd(re, factor.im, hn::Mul(im, factor.re));
+        re = rotated;
     }
 };
 
@@ -44,9 +44,9 @@ void LensStretchRows(const LensStretch& stretch, const optics::PupilEdge& edge, 
         const Phasor bend(stretch.bend, row);
         for (std::size_t column = 0; column < stretch.columns; ++column) {
             const V t = hn::Set(d, static_cast<float>(column)), squared = square.at(t);
-            V passes = weight.at(t);
+            V transmission = weight.at(t);
             if (hn::AllTrue(d, hn::Ge(squared, outer))) {
-                passes = hn::Zero(d);
+                transmission = hn::Zero(d);
             } else if (!hn::AllTrue(d, hn::Lt(squared, inner))) {
                 HWY_ALIGN float distances[optics::block_lines], shares[optics::block_lines];
                 hn::Store(hn::Sqrt(hn::Max(squared, hn::Zero(d))), d, distances);
@@ -55,13 +55,13 @@ void LensStretchRows(const LensStretch& stretch, const optics::PupilEdge& edge, 
                     shares[lane] =
                         distance < stretch.inner ? 1.0f : static_cast<float>(edge.transmission(radius - distance));
                 }
-                passes = hn::Mul(passes, hn::Load(d, shares));
+                transmission = hn::Mul(transmission, hn::Load(d, shares));
             }
             float* to = out + 2 * column * optics::block_lines + row;
-            hn::Store(hn::Mul(passes, value.re), d, to);
-            hn::Store(hn::Mul(passes, value.im), d, to + optics::block_lines);
-            value.turn(step);
-            step.turn(bend);
+            hn::Store(hn::Mul(transmission, value.re), d, to);
+            hn::Store(hn::Mul(transmission, value.im), d, to + optics::block_lines);
+            value.rotate(step);
+            step.rotate(bend);
         }
     }
 }

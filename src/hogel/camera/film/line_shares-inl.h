@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_shares_plain() by vectors, for files that are compiled once for every SIMD target. To be included after
+// Vector code of line_shares_plain(), for files that are compiled for every SIMD target. Include it after
 // hwy/highway.h.
 #if defined(HOGEL_OPTICS_FILM_LINE_SHARES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_OPTICS_FILM_LINE_SHARES
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace hogel::camera::film::HWY_NAMESPACE {
 
-// The shares of 2, 3 or 5 nodes in the weights of lines t.
+// Computes the shares of 2, 3 or 5 nodes in the weights of lines t.
 template <std::size_t nodes, class D, class V>
 HWY_INLINE void line_shares(D d, V t, V (&shares)[nodes]) {
     namespace hn = hwy::HWY_NAMESPACE;

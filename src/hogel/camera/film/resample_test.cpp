@@ -35,15 +35,15 @@ TEST_P(FilmResample, keeps_what_it_passes) {
                 lines(i * both + block_lines + line) = wave(double(i)).imag();
             }
         // Places 20 … 40, nearly uniform.
-        TangentPositions places{-0.01, 0.02 / static_cast<double>(count), 30, {}, {}};
-        places.squares.fill(1);
-        for (std::size_t line = 0; line < block_lines; ++line) places.scales[line] = 1000 + double(line);
-        resample_lines(lines.data(), size, places, table, count, values.data());
+        TangentPositions positions{-0.01, 0.02 / static_cast<double>(count), 30, {}, {}};
+        positions.squares.fill(1);
+        for (std::size_t line = 0; line < block_lines; ++line) positions.scales[line] = 1000 + double(line);
+        resample_lines(lines.data(), size, positions, table, count, values.data());
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t line = 0; line < block_lines; ++line) {
-                const double s = places.first + static_cast<double>(i) * places.step;
+                const double s = positions.first + static_cast<double>(i) * positions.step;
                 const std::complex<float> value(values(i * both + line), values(i * both + block_lines + line)),
-                    expected = wave(30 + places.scales[line] * s / std::sqrt(1 - s * s));
+                    expected = wave(30 + positions.scales[line] * s / std::sqrt(1 - s * s));
                 EXPECT_LT(std::abs(value - expected), 2e-3f) << frequency;
             }
     }
@@ -62,14 +62,15 @@ TEST_P(FilmResample, vector_and_plain_agree) {
         for (const double change : {0.0, 3e-5, 2e-4, 8e-4, 5e-2})
             for (const bool by_square : {false, true})
                 for (const std::size_t count : {0, 1, 2, 63, 64, 65, 150}) {
-                    TangentPositions places{-0.8, 1.6 / static_cast<double>(count + 1), 44.3, {}, {}};
-                    places.squares.fill(1.2);
-                    places.scales.fill(scale);
+                    TangentPositions positions{-0.8, 1.6 / static_cast<double>(count + 1), 44.3, {}, {}};
+                    positions.squares.fill(1.2);
+                    positions.scales.fill(scale);
                     for (std::size_t line = 0; line < block_lines; ++line)
-                        (by_square ? places.squares : places.scales)[line] *= 1 + change * double(line * 5 % 16 + line);
+                        (by_square ? positions.squares : positions.scales)[line] *=
+                            1 + change * double(line * 5 % 16 + line);
                     Array<float, 1> fast({(count + 1) * both}), plain({(count + 1) * both});
-                    resample_lines(lines.data(), size, places, table, count, fast.data());
-                    resample_lines_plain(lines.data(), size, places, table, count, plain.data());
+                    resample_lines(lines.data(), size, positions, table, count, fast.data());
+                    resample_lines_plain(lines.data(), size, positions, table, count, plain.data());
                     // Phases of the table are rounded at the nodes instead of at each line.
                     for (std::size_t i = 0; i < fast.size(); ++i)
                         ASSERT_NEAR(fast(i), plain(i), change == 0 ? 1e-5 : 6e-3)

@@ -220,7 +220,7 @@ void HogelBandRenderer::set_groups(std::span<const Item> items, const std::vecto
     if (groups.size() == 1) std::ranges::fill(groups.front().mask, 1.0f);
 }
 
-// @param cached  the waves of these hogels, if they are kept
+// @param cached  the waves of these hogels; null rows if they are not cached
 void HogelBandRenderer::render_batch(const HogelRange& tiles, std::span<const Item> items, std::size_t first_look,
                                      const WaveCache::Tile& cached, Scratch& scratch) const {
     scratch.groups.resize(bands_.size());
