@@ -47,8 +47,8 @@ std::unique_ptr<PupilBandSource> make_band_source(const FieldSource& whole, cons
         bands = hogel_spectra::make_hogel_band_source(*whole.stereogram(), part, viewpoints, wave_cache);
     if (!bands && source == BandSource::hogel_spectra)
         throw Error(ErrorCode::usage, "camera",
-                    "a photograph from hogels needs a stereogram that is made on demand, of hogels that are sums of as "
-                    "many waves as they have samples, four times as many as the eye takes in; from samples would do");
+                    "photographs from hogel spectra need a stereogram that is made on demand by a method with known "
+                    "spectra, and a pupil band of at most a quarter of its samples; use samples for others");
     if (!bands) bands = std::make_unique<SampledBandSource>(window, viewpoints);
     return bands;
 }

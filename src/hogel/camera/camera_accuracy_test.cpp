@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(AnglesAndFocuses, AccurateCameras,
                          ::testing::Values(Look{0, 0}, Look{0, 0.1e-3}, Look{0, -0.1e-3}, Look{15, 0}, Look{15, 0.1e-3},
                                            Look{15, -0.1e-3}, Look{30, 0}, Look{30, 0.1e-3}, Look{30, -0.1e-3}));
 
-// What a picture shows within the outline of the hologram, and beside it.
+// Parts of a picture within the outline of the hologram, and beside it.
 struct Parts {
     Image inside, beside;
 };
@@ -145,7 +145,7 @@ TEST(CamerasAtTheOutline, show_a_point_before_the_edge) {
 }
 
 // Blurs of 344 and 172 resolution cells, 43 cycles of defocus at the rim of the pupil and half as many: light is
-// followed beyond the spot.
+// followed beyond the PSF.
 TEST(NarrowAndFullCamera, equal_the_direct_sum_far_out_of_focus) {
     const FieldGrid grid{{16, 14, 1.5_um, 1.5_um, 0, 0}, 633_nm};
     const Field field = random_field(grid, 6);
@@ -184,7 +184,7 @@ TEST(NarrowCamera, equals_the_direct_sum_on_tilted_planes) {
     }
 }
 
-// Two ways that share no step but the interpolation of intensities.
+// Two cameras that share no step but the interpolation of intensities.
 TEST(NarrowAndFullCamera, show_the_same_speckle) {
     const FieldGrid grid{{400, 360, 0.8_um, 0.8_um, 20_um, 0}, 532_nm};
     const Field field = random_field(grid, 11);
@@ -210,7 +210,7 @@ TEST(SpreadWindow, leaves_out_what_airys_disc_has_beyond_it) {
     const double beyond = std::pow(std::cyl_bessel_j(0.0, x), 2) + std::pow(std::cyl_bessel_j(1.0, x), 2);
     const double hologram = 2 / (9.869604401089358 * 0.25 / cell);
     EXPECT_NEAR(optics::light_left_out(window, 0.5, 0.5, cell), beyond - hologram, 2e-5);
-    // A point out of focus falls off from the rim of its spot on, which may be wider than that.
+    // A point out of focus falls off from the rim of its PSF, which may be wider than that.
     const optics::SpreadWindow blurred(0.5, 0.5, 600 * cell, cell);
     EXPECT_EQ(blurred.flat, (300 + 128) * cell);
     EXPECT_NEAR(optics::light_left_out(blurred, 0.5, 0.5, cell), optics::light_left_out(window, 0.5, 0.5, cell), 1e-9);

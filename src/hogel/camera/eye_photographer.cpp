@@ -72,9 +72,10 @@ struct EyePhotographer::State {
         const bool is_known =
             band() != nullptr ? !band()->vertical_diffuser : std::holds_alternative<SpeckleFreeCamera>(camera_model);
         if (!is_known)
-            throw Error(ErrorCode::usage,
-                        "photographs from one eye after the other are those of the band camera without a diffuser, or "
-                        "without speckle; photograph() has the others");
+            throw Error(
+                ErrorCode::usage,
+                "an EyePhotographer supports the band camera without a diffuser and the speckle-free camera; use "
+                "photograph() for other models");
     }
 
     const Fields& holograms() const { return shared->holograms; }

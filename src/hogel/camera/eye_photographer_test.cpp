@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photographs from one eye after the other.
+// Photographs from one viewpoint after the other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double stripes(Vec3 hogel, Vec3 direction) {
     return 0.6 + 0.4 * std::sin(2 * std::numbers::pi * (hogel.x / 290e-6 + 3 * direction.y / direction.z));
 }
 
-// Counts the readings of its light field.
+// Counts the reads of its light field.
 class Counted final : public LightFieldSource {
   public:
     explicit Counted(LightFieldBuffer light_field) : light_field_(std::move(light_field)) {}
@@ -81,7 +81,7 @@ TEST(EyePhotographer, takes_the_photographs_of_all_eyes_from_one_reading) {
     EXPECT_EQ(s.light_field->readings, readings);
 }
 
-// Pictures of the same eye that show more or less of the surroundings of the hologram.
+// Pictures of the same viewpoint that show more or less of the surroundings of the hologram.
 TEST(EyePhotographer, shows_the_surroundings_as_other_photographs_do) {
     const Setting s;
     EyePhotographer photographer({s.hologram});
@@ -108,7 +108,7 @@ TEST(EyePhotographer, shows_the_mean_of_the_looks_so_far) {
     EXPECT_GT(distance(shown.front(), last), 2 * distance(shown[2], last));
 }
 
-// Fields of which only samples are known, too; narrower pupils need no new light.
+// Fields with known samples only; narrower pupils need no new light.
 TEST(EyePhotographer, takes_photographs_of_samples) {
     const Setting s;
     const Grid& plane = s.hologram->grid().plane;
@@ -168,7 +168,7 @@ TEST(PhotographTogether, makes_rays_once_for_all_colours) {
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < cameras.size(); ++i)
             EXPECT_TRUE(std::ranges::equal((*together)[c][i].pixels.elements(), alone[c][i].pixels.elements()));
-    // Not from samples, nor of one colour, nor of so many looks that new memory takes more time than rays.
+    // Not from samples, nor for one colour, nor for so many looks that new memory takes more time than rays.
     EXPECT_FALSE(camera::photograph_together(colours, cameras, {.source = BandSource::samples}, {}));
     EXPECT_FALSE(camera::photograph_together({colours.data(), 1}, cameras, {}, {}));
     EXPECT_FALSE(camera::photograph_together(in_colours(40), cameras, {}, {}));

@@ -16,8 +16,8 @@
 namespace hogel::camera {
 namespace {
 
-// Returns the number of rows per line, of which only the middle one is nonzero, as thin as the widest pupil requires.
-// It is odd, so that there is a middle row.
+// Returns the number of thin rows per line, narrow enough for the widest pupil; only the middle one is nonzero. It is
+// odd, so that there is a middle row.
 std::size_t rows_in_line(const FieldGrid& hologram, std::span<const Camera> cameras) {
     constexpr double rows_in_cell = 12;  // the narrow band is decimated to 4
     double cell = hologram.plane.pitch_y;
@@ -147,7 +147,7 @@ BandCamera without_diffuser(BandCamera model) {
 void require_lines(const BandCamera& model) {
     if (model.source == BandSource::hogel_spectra)
         throw Error(ErrorCode::usage, "camera",
-                    "behind a diffuser the light of samples is photographed, not that of hogels");
+                    "a photograph behind a vertical diffuser needs samples, not hogel spectra");
 }
 
 // Returns the processor seconds for the films of one set of lines.

@@ -20,7 +20,7 @@ using namespace literals;
 
 const BandCamera diffuse{.vertical_diffuser = true};
 
-// Random samples: uniform light towards all directions that the pitch along x diffracts to.
+// Random samples: uniform light in all directions to which the pitch along x diffracts.
 Field random_lines(const FieldGrid& grid, unsigned seed) {
     Field field(grid);
     std::mt19937 random(seed);
@@ -77,7 +77,7 @@ TEST(LineDiffuser, is_the_sum_of_the_intensities_of_all_heights_by_direct_summat
     }
 }
 
-// Lines whose light does not overlap are photographed together.
+// Lines without overlapping light share a photograph.
 TEST(LineDiffuser, lines_that_are_far_apart_do_not_change_each_other) {
     const FieldGrid grid{{400, 40, 6_um, 62.5_um, 0, 0}, 633_nm};
     const Field field = random_lines(grid, 2);
@@ -89,8 +89,8 @@ TEST(LineDiffuser, lines_that_are_far_apart_do_not_change_each_other) {
     for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(relative_difference(together[i], alone[i]), 0.004) << i;
 }
 
-// A field of independent samples has the spectral density |F|² Δx Δy, Lλ²/cos θ for the radiance L. The eye sees it
-// from any height, though lines so far apart diffract by 0.3 degrees only.
+// A field of independent samples has the spectral density |F|² Δx Δy, Lλ²/cos θ for the radiance L. It is visible from
+// any height, though lines so far apart diffract by 0.3 degrees only.
 TEST(LineDiffuser, uniform_light_has_its_radiance_from_all_heights) {
     const FieldGrid grid{{500, 48, 5_um, 62.5_um, 0, 0}, 633_nm};
     const Field field = random_lines(grid, 3);
@@ -105,7 +105,7 @@ TEST(LineDiffuser, uniform_light_has_its_radiance_from_all_heights) {
     }
 }
 
-// The light of a point behind the hologram, on one line: it is seen where the line of sight to it goes, on its line.
+// The light of a point behind the hologram, on one line: it appears on its line, where the line of sight meets it.
 TEST(LineDiffuser, a_point_is_in_its_place_across_and_on_its_line) {
     const FieldGrid grid{{1500, 48, 4_um, 62.5_um, 0, 0}, 633_nm};
     const double x = 0.7_mm, depth = 8_mm, k = 2 * std::numbers::pi / 633_nm;
@@ -132,7 +132,7 @@ TEST(LineDiffuser, a_point_is_in_its_place_across_and_on_its_line) {
         const double wanted = eye.x + (x - eye.x) * eye.z / (eye.z + depth);
         EXPECT_NEAR(camera.picture.x(peak), wanted, 25_um) << eye.x;
         EXPECT_NEAR(height / total, grid.plane.y(double(line)), 20_um) << eye.y;
-        // Two resolution cells hold most of it.
+        // Two resolution cells contain most of it.
         double near = 0;
         for (double at = peak - 2; at <= peak + 2; ++at) near += columns[static_cast<std::size_t>(at)];
         EXPECT_GT(near, 0.8 * total) << eye.x;

@@ -26,7 +26,7 @@ TEST(PackedBand, holds_numbers_where_they_were) {
     for (std::size_t row = 0; row < 21; ++row)
         for (std::size_t column = 0; column < 37; ++column)
             EXPECT_EQ(*band.at(row, column), math::pack(numbers(row, column))) << row << " " << column;
-    // Beyond the last column and the last row it is dark.
+    // Zero beyond the last column and the last row.
     EXPECT_EQ(band.at(20, 36)[PackedBand::side - 36 % PackedBand::side - 1], math::PackedComplex());
     EXPECT_EQ(*band.at(21, 0), math::PackedComplex());
 }
@@ -39,7 +39,7 @@ TEST(PackedBand, shares_memory_with_others_and_no_numbers) {
         for (std::size_t column = 0; column < 40; ++column) *bands[1].at(row, column) = one;
     EXPECT_EQ(bands[0], alone);
     EXPECT_EQ(bands[2], alone);
-    // The others' memory stays while there is any of them.
+    // The memory stays allocated while any of the bands exists.
     const PackedBand last = std::move(bands[1]);
     bands.clear();
     for (std::size_t row = 0; row < 20; ++row)

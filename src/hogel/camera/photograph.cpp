@@ -54,9 +54,10 @@ speckle_free::WavePowers powers_of(const FieldSource& hologram) {
     const stereogram::Stereogram* const source = hologram.stereogram();
     const stereogram::Hogels hogels = source != nullptr ? source->hogels() : stereogram::Hogels();
     if (hogels.waves == nullptr || !hogels.waves->independent())
-        throw Error(ErrorCode::usage, "speckle, method, phase",
-                    "a speckle-free photograph needs a stereogram that is made on demand and whose waves have "
-                    "independent random phases: the method fourier with random phases; a number of looks would do");
+        throw Error(
+            ErrorCode::usage, "speckle, method, phase",
+            "speckle-free photographs need a stereogram that is made on demand by the method fourier with random "
+            "phases; use a number of looks for others");
     return speckle_free::WavePowers(hogels);
 }
 

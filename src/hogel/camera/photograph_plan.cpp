@@ -231,7 +231,7 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
     double widest = 0;
     for (const Camera& camera : cameras) widest = std::max(widest, camera.pupil);
     throw Error(ErrorCode::usage, "pupil",
-                fmt::format("a photograph through a pupil of {} takes more than the {} of memory that it may; {}",
+                fmt::format("a photograph through a pupil of {} needs more than the allowed {} of memory; {}",
                             format_length(widest), format_bytes(memory),
                             fits > 0 ? fmt::format("a pupil of {} would do", format_length(widest * fits))
                                      : "no pupil is small enough"));

@@ -30,7 +30,7 @@ Field spherical_wave(const FieldGrid& grid, Vec3 point) {
     return field;
 }
 
-// Independent samples, whose real and imaginary parts have this standard deviation.
+// Independent samples; their real and imaginary parts have this standard deviation.
 Field random_field(const FieldGrid& grid, unsigned seed, float deviation = 1) {
     Field field(grid);
     std::mt19937 random(seed);
@@ -185,7 +185,7 @@ TEST(WavesInFocus, have_the_phases_of_their_paths) {
     };
     const auto here = through(0), quarter = through(0.25 * 633_nm);
     EXPECT_NEAR(std::arg(quarter(15, 15) / here(15, 15)), std::numbers::pi / 2, 0.05);
-    // In focus, a spot has a constant phase up to the first dark ring.
+    // In focus, a PSF has a constant phase up to the first dark ring.
     const double cell = resolution_cell(camera, 633_nm);
     for (std::size_t row = 0; row < 31; ++row)
         for (std::size_t column = 0; column < 31; ++column) {
@@ -278,7 +278,7 @@ TEST(Photograph, window_by_window_is_the_same_picture) {
     EXPECT_NEAR(beside(parts[2]) / beside(whole[2]), 1, 0.01);
 }
 
-// The surroundings of a hologram take memory where pictures show them, as far as light reaches and no farther.
+// The surroundings of a hologram take memory where pictures show them, up to the limit of the light.
 TEST(PhotographPlan, has_surroundings_only_where_pictures_show_them) {
     const FieldGrid grid{{1000, 800, 2_um, 2_um, 0.1_mm, 0}, 633_nm};
     const auto bytes = [&](double width, double middle, bool surroundings) {
@@ -385,7 +385,7 @@ TEST(Photograph, of_a_pupil_that_resolves_nothing_is_refused_by_both_cameras) {
         EXPECT_NE(refusal(pupil, false).find("a pupil of 0.234375 mm would do"), std::string::npos) << pupil;
         EXPECT_NE(refusal(pupil, true).find("a pupil of 0.9375 mm would do"), std::string::npos) << pupil;
     }
-    // The smallest that is not refused shows what the direct sum does, within 5 %.
+    // The narrowest accepted pupil shows the picture of the direct sum, within 5 %.
     const auto expect_equal = [&](const Image& picture) {
         const Image direct = photograph(hologram, {&camera, 1}, DirectCamera{60, 2}).front();
         double error = 0, energy = 0;

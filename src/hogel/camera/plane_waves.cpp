@@ -47,7 +47,7 @@ struct PlaneWaveJob {
     const FieldSource& hologram;
     std::size_t look;
     const PlaneWaveCamera& options;
-    Communicator* communicator;  // communicator whose ranks share the transforms, or null
+    Communicator* communicator;  // shares the transforms among its ranks; null: no MPI
 };
 
 bool is_tilted(const Camera& camera) { return camera.focus_slope_x != 0 || camera.focus_slope_y != 0; }
@@ -403,7 +403,7 @@ void camera::require_by_plane_waves(const FieldGrid& hologram, std::span<const C
     const double film = model.film_distance;
     if (!std::isfinite(film) || film < 0)
         throw Error(ErrorCode::usage, "film_distance",
-                    fmt::format("a film {} m behind its lens: it must be positive and finite", film));
+                    fmt::format("the film is {} m behind its lens; expected a finite distance of at least 0", film));
     for (const Camera& camera : cameras) {
         require_light_towards(hologram, camera);
         require_resolution(hologram, camera, min_cells);

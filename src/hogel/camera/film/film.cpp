@@ -103,7 +103,7 @@ double FilmSize::pupil_bytes() const {
 }
 
 double FilmSize::work_bytes() const {
-    // Both are kept for the next look, and so is the lens.
+    // All of these are reused for the next look.
     const double lens_bytes = 2 * pupil_bytes();
     const std::size_t to_pupil = (active_right - active_left) * (band_rows + padded(count_frequencies(reach_y))),
                       to_film = padded(x.count) * padded(count_frequencies(reach_y));

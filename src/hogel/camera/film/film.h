@@ -27,8 +27,8 @@ inline constexpr double samples_a_cell = 2.4;
 /// finest speckle.
 constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
-/// One axis of an exposed film: `size` samples of a transform over the period of the sines, of which the shown ones are
-/// kept.
+/// One axis of an exposed film: `size` samples of a transform over the period of the sines; only the shown samples are
+/// stored.
 struct FilmAxis {
     std::size_t size = 0;  ///< of the transform
     std::size_t first = 0, count = 0;

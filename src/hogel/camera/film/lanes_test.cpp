@@ -56,7 +56,7 @@ TEST_P(FilmLanes, vector_and_plain_products_agree) {
     EXPECT_NE(plain(6 * row), 0);
 }
 
-// Counts of places and of lanes that fill blocks, and that do not.
+// Numbers of indices and lanes that fill blocks, and that do not.
 TEST_P(FilmLanes, vector_and_plain_turns_agree) {
     const Array<float, 1> rows = noise(40 * row, 3);
     for (const std::size_t count : {16, 35, 40})

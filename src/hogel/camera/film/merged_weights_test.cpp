@@ -36,15 +36,15 @@ std::vector<float> line_numbers() {
     return t;
 }
 
-// The value at a point of one of sixteen lines of `size` samples.
+// Returns the value at a point of one of sixteen lines of `size` samples.
 double value_at(const Array<float, 1>& lines, std::size_t size, std::size_t line, double t, const Point& point) {
     return std::lerp(double(point.low_factor), double(point.high_factor), 0.5 * (t + 1)) *
            smooth_at<TwelvePoint>(size, std::lerp(point.low, point.high, 0.5 * (t + 1)),
                                   [&](std::size_t i) { return lines(i * block_lines + line); });
 }
 
-// Points that lines see at the same place, at places that differ little, and as much as is allowed; across a sample,
-// in both directions, and some that are outside.
+// Points at the same position on all lines, at positions that differ little or as much as allowed; across a sample, in
+// both directions, and some outside.
 TEST_P(MergedWeightsOnTargets, are_those_of_each_line) {
     constexpr std::size_t size = 60;
     const Array<float, 1> lines = noise(size * block_lines);
@@ -92,8 +92,8 @@ TEST(MergedWeights, are_not_shared_by_lines_that_differ_too_much) {
     EXPECT_EQ(weights.taps(), 0u);
 }
 
-// Constants are kept, and waves up to nearly the highest frequency of a film's intensities, 1/2.4 cycles a sample;
-// where a neighbour is missing, values are zero.
+// Constants are preserved, and waves up to nearly the highest frequency of a film's intensities, 1/2.4 cycles per
+// sample. Values are zero where a neighbour is missing.
 TEST(MergedWeights, keep_waves) {
     constexpr std::size_t size = 40;
     Array<float, 1> lines({size * block_lines});

@@ -20,7 +20,7 @@ HOGEL_TEST_ON_EVERY_TARGET(FilmResample);
 
 constexpr std::size_t both = 2 * block_lines;
 
-// Waves are kept up to the highest frequency that is passed: their images are stopped.
+// Waves are preserved up to the edge of the passband, and their images are stopped.
 TEST_P(FilmResample, keeps_what_it_passes) {
     const InterpolationTable table;
     constexpr std::size_t size = 60, count = 300;
@@ -34,7 +34,7 @@ TEST_P(FilmResample, keeps_what_it_passes) {
                 lines(i * both + line) = wave(double(i)).real();
                 lines(i * both + block_lines + line) = wave(double(i)).imag();
             }
-        // Places 20 … 40, nearly uniform.
+        // Positions 20 … 40, nearly uniform.
         TangentPositions positions{-0.01, 0.02 / static_cast<double>(count), 30, {}, {}};
         positions.squares.fill(1);
         for (std::size_t line = 0; line < block_lines; ++line) positions.scales[line] = 1000 + double(line);
@@ -49,7 +49,7 @@ TEST_P(FilmResample, keeps_what_it_passes) {
     }
 }
 
-// Positions inside, at both ends and outside, forwards and backwards, of lines that are alike, that share weights
+// Positions inside, at both ends and outside, forwards and backwards, of lines that are equal, that share weights
 // through two, three and five nodes, and that do not.
 TEST_P(FilmResample, vector_and_plain_agree) {
     const InterpolationTable table;

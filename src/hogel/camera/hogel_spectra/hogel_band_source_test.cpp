@@ -50,8 +50,8 @@ std::unique_ptr<PupilBandSource> draw_hogels_of(const FieldSource& hologram, con
     return make_hogel_band_source(*hologram.stereogram(), part, eyes);
 }
 
-// The light that samples on a grid send to points of the pupil, without a common factor: point q of the pupil, in units
-// of the frequency that it has after demodulation.
+// Light of samples on a grid at points of the pupil, up to a common factor: point q of the pupil, in units of the
+// frequency that it has after demodulation.
 Wide light_of(const auto& sample, const Grid& plane, const auto& cycles, double qx, double qy) {
     Wide sum = 0;
     for (std::size_t row = 0; row < plane.height; ++row)
@@ -69,7 +69,7 @@ Wide light_at(View<const std::complex<float>, 2> field, const Grid& plane, const
         field, plane, [&](double x, double y) { return geometry.cycles(x, y); }, qx, qy);
 }
 
-// From an eye's band, which is demodulated.
+// From a pupil band, which is demodulated.
 Wide light_at(const camera::PackedBand& band, const Grid& plane, double qx, double qy) {
     const auto sample = [&](std::size_t row, std::size_t column) { return math::unpacked(*band.at(row, column)); };
     return light_of(
@@ -226,7 +226,7 @@ TEST(HogelBandSource, do_not_depend_on_threads_or_on_other_eyes) {
     for (std::size_t look : {0, 1}) EXPECT_TRUE(both[1][look + 1] == one[0][look]);
 }
 
-// Many looks lie side by side in vectors, few beside other hogels.
+// Many looks are interleaved in vectors; few looks share vectors with other hogels.
 TEST(HogelBandSource, do_not_depend_on_other_looks) {
     const LightField light_field = striped(grid_of(40, 48_um));
     const auto hologram = make_hologram(light_field, {{532_nm, 0}, 1.5_um, Fourier{}, 18, 1});

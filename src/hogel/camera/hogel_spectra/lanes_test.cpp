@@ -17,7 +17,7 @@
 namespace hogel::camera::hogel_spectra {
 namespace {
 
-HOGEL_TEST_ON_EVERY_TARGET(EyeLanes);
+HOGEL_TEST_ON_EVERY_TARGET(HogelLanes);
 
 using Complex = std::complex<float>;
 constexpr std::size_t both = 2 * lanes;
@@ -34,10 +34,10 @@ struct Size {
     std::size_t samples, per_hogel;
     double half_band;
 };
-// Sides of hogels with and without a rest, bands with more functions and nodes than a vector holds.
+// Sides of hogels that fill vectors and that do not, bands with more functions and nodes than a vector holds.
 constexpr Size sizes[] = {{16, 1, 0.2}, {32, 5, 1.1}, {27, 4, 0.9}, {64, 24, 5.2}, {40, 14, 3.1}};
 
-// Lanes that an eye sees with the same weights, of hogels side by side or of looks.
+// Lanes with the same weights, of adjacent hogels or of looks.
 struct Batch {
     explicit Batch(const Size& size)
         : basis(size.samples, size.per_hogel, size.half_band),
@@ -46,7 +46,7 @@ struct Batch {
           waves(noise(size.samples * size.samples * both, 5)),
           numbers({basis.functions() * basis.functions() * both}) {}
 
-    // The numbers by `sum_one` for each row and `sum_all` for all of them.
+    // Returns the numbers by `sum_one` for each row and `sum_all` for all rows.
     template <class SumRow, class SumRows>
     void sum(const SumRow& sum_one, const SumRows& sum_all) {
         const std::size_t n = basis.samples(), line = basis.functions() * both;
@@ -57,7 +57,7 @@ struct Batch {
         sum_all(basis, rows, columns.sign * rows.sign, lines.data(), mask, numbers.data());
     }
 
-    // What project_plain() adds to a line for one lane.
+    // Returns the result of project_plain() for one lane.
     Array<float, 3> line_of(std::size_t lane) const {
         const std::size_t n = basis.samples(), across = padded(basis.nodes());
         Array<float, 1> own({stereogram::HogelWaves::size(n, n)});
@@ -82,8 +82,8 @@ struct Batch {
     Array<float, 1> numbers;
 };
 
-// A lane is what project_plain() makes of its waves.
-TEST_P(EyeLanes, are_projections_of_single_hogels) {
+// The result of a lane is that of project_plain().
+TEST_P(HogelLanes, are_projections_of_single_hogels) {
     for (const Size& size : sizes)
         for (const std::size_t count : {std::size_t{16}, std::size_t{5}}) {
             Batch fast(size), plain(size);
@@ -110,8 +110,8 @@ TEST_P(EyeLanes, are_projections_of_single_hogels) {
         }
 }
 
-// So are looks that lie side by side.
-TEST_P(EyeLanes, are_projections_of_looks_side_by_side) {
+// The same for interleaved looks.
+TEST_P(HogelLanes, are_projections_of_looks_side_by_side) {
     for (const Size& size : sizes) {
         Batch batch(size);
         batch.sum(sum_row, sum_rows);
@@ -131,7 +131,7 @@ TEST_P(EyeLanes, are_projections_of_looks_side_by_side) {
     }
 }
 
-TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
+TEST_P(HogelLanes, of_binary16_are_those_of_its_values) {
     for (const std::size_t n : {32, 27}) {
         const SlepianBasis basis(n, 4, 1.2);
         const Array<float, 1> values = noise(n * both, 4);
@@ -154,8 +154,8 @@ TEST_P(EyeLanes, of_binary16_are_those_of_its_values) {
     }
 }
 
-// Rows whose pairs are left out count as zero.
-TEST_P(EyeLanes, need_no_dark_rows) {
+// Rows of omitted pairs count as zero.
+TEST_P(HogelLanes, need_no_dark_rows) {
     const SlepianBasis basis(32, 4, 1.2);
     const std::size_t line = basis.functions() * both;
     const Array<float, 1> lines = noise(32 * line, 3);
@@ -182,8 +182,8 @@ TEST_P(EyeLanes, need_no_dark_rows) {
     }
 }
 
-// Only the lanes that are chosen are stored.
-TEST_P(EyeLanes, that_are_not_chosen_stay) {
+// Only the lanes of the mask are stored.
+TEST_P(HogelLanes, that_are_not_chosen_stay) {
     const SlepianBasis basis(32, 4, 1.2);
     const std::size_t line = basis.functions() * both;
     const Array<float, 1> lines = noise(32 * line, 3);
@@ -195,7 +195,7 @@ TEST_P(EyeLanes, that_are_not_chosen_stay) {
 }
 
 // The waves of lanes are those of single hogels with phases from the middle.
-TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
+TEST_P(HogelLanes, have_the_random_phases_of_single_hogels) {
     for (const std::size_t n : {16, 32, 64, 128}) {
         ASSERT_TRUE(stereogram::middle_is_a_byte(n));
         Array<float, 1> moduli = noise(n * n * lanes, 8);  // [row][column][lane]
@@ -239,7 +239,7 @@ TEST_P(EyeLanes, have_the_random_phases_of_single_hogels) {
 }
 
 // The same for sides that are no powers of two.
-TEST_P(EyeLanes, have_the_random_phases_of_single_hogels_of_any_side) {
+TEST_P(HogelLanes, have_the_random_phases_of_single_hogels_of_any_side) {
     for (const std::size_t n : {17, 32, 50, 107}) {
         const std::vector<float> phases = stereogram::middle_phases(n);
         const Array<float, 1> moduli = noise(n * n * lanes, 9);  // [row][column][lane]

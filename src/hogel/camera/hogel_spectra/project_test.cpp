@@ -15,7 +15,7 @@ namespace {
 
 HOGEL_TEST_ON_EVERY_TARGET(EyeProjection);
 
-// Sides of hogels with and without a rest, bands with more functions and nodes than a vector holds.
+// Sides of hogels that fill vectors and that do not, bands with more functions and nodes than a vector holds.
 TEST_P(EyeProjection, vector_and_plain_projection_agree) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
@@ -37,7 +37,7 @@ TEST_P(EyeProjection, vector_and_plain_projection_agree) {
                     for (std::size_t part : {0, 1})
                         waves((y / 16 * n + column) * 32 + part * 16 + y % 16) = normal(random);
             const HogelView view{basis.weights(3.3), down.weights(-77.2)};
-            // A line that others have lit, from a node on that no vector begins with.
+            // A line with light of other hogels, from an unaligned node on.
             Array<float, 3> fast({down.functions(), 2, row}, 1.0f), plain(fast.shape(), 1.0f);
             project({basis, down}, view, waves.data(), {&fast(0, 0, 3), row});
             project_plain({basis, down}, view, waves.data(), {&plain(0, 0, 3), row});

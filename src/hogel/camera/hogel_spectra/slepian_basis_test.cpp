@@ -34,7 +34,7 @@ TEST(Eigensystem, makes_the_matrix_again) {
         }
 }
 
-// A wave of a hogel, and what the band's samples that stand for it send into the pupil.
+// Light of a wave of a hogel in the pupil, and light of the band's samples that represent it.
 struct Case {
     std::size_t samples, per_hogel;
     double half_band;
@@ -67,7 +67,7 @@ TEST_P(HogelBasisOfSize, sends_the_light_of_the_samples_into_the_pupil) {
                     }
                     spread += sample * phasor(-kappa * basis.position(b));
                 }
-                // A sample of the band stands for n / per_hogel samples of the hogel.
+                // A sample of the band represents n / per_hogel samples of the hogel.
                 spread *= static_cast<double>(n) / static_cast<double>(per_hogel);
                 wrong += std::norm(spread - direct);
                 all += std::norm(direct);
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(, HogelBasisOfSize,
                                          Case{27, 3, 0.7}, Case{128, 9, 2.2}, Case{8, 2, 0.45}, Case{48, 22, 6.5},
                                          Case{64, 24, 7.4}));
 
-// Every wave is in one pair, where its weights are those of the table with a sign.
+// Every wave is in exactly one pair, with the weights of the table up to the sign.
 TEST(SlepianBasis, pairs_waves_of_equal_weights) {
     for (const std::size_t n : {16, 27}) {
         const SlepianBasis basis(n, 4, 0.9);
@@ -114,7 +114,7 @@ TEST(SlepianBasis, needs_few_functions) {
     EXPECT_LE(SlepianBasis(64, 1, 0.1).functions(), 4u);
 }
 
-// The carrier of a frequency is e^{−2πiνx} at the places of the nodes, however large the frequency is.
+// The carrier of a frequency is e^{−2πiνx} at the positions of the nodes, however large the frequency is.
 TEST(SlepianBasis, has_carriers_that_are_waves_of_their_frequency) {
     for (const std::size_t per_hogel : {1, 4, 5}) {
         const SlepianBasis basis(32, per_hogel, 0.2 * static_cast<double>(per_hogel));

@@ -42,7 +42,7 @@ TEST_P(SpreadLine, are_spread_down_as_plainly) {
     }
 }
 
-// Light of looks by themselves and side by side is added to bands, to so many columns and no more.
+// Light of single and of interleaved looks is added to bands, to the given columns only.
 TEST_P(SpreadLine, are_demodulated_as_plainly) {
     constexpr std::size_t square = camera::PackedBand::square;
     const auto apart = [](math::PackedComplex a, math::PackedComplex b) {
@@ -74,7 +74,7 @@ TEST_P(SpreadLine, are_demodulated_as_plainly) {
             add_demodulated_looks(side_by_side, columns, fast_rows);
             add_demodulated_looks_plain(side_by_side, columns, plain_rows);
             for (std::size_t i = 0; i < fast.size(); ++i) {
-                // A look is the same in any company.
+                // A look does not depend on the other looks.
                 ASSERT_EQ(fast.data()[i], one_by_one.data()[i]) << columns << " " << i;
                 ASSERT_LT(apart(fast.data()[i], plain.data()[i]), 0.01f) << columns << " " << i;
             }

@@ -39,8 +39,8 @@ double deviation(const NarrowBand& band, const Array<std::complex<float>, 2>& sa
     return worst;
 }
 
-// Demodulation turns a wave that converges on the eye into a constant, which the low-pass keeps, both for eyes that
-// share the pass down the columns and for one that does not.
+// Demodulation turns a wave that converges on the viewpoint into a constant, which the low-pass preserves, for
+// viewpoints that share the pass down the columns and for one that does not.
 TEST(NarrowBand, a_wave_converging_on_the_eye_becomes_one) {
     const std::array eyes{Vec3{0, 0, 0.1}, Vec3{8e-3, 0, 0.1}, Vec3{-8e-3, 0, 0.1}, Vec3{5e-3, 30e-3, 0.08}};
     std::vector<NarrowBand> bands;
@@ -60,7 +60,7 @@ TEST(NarrowBand, is_the_same_for_any_number_of_threads) {
     EXPECT_TRUE(std::ranges::equal(all[0][0].elements(), alone[0][0].elements()));
 }
 
-// A wave that converges on an eye, of which nothing is in memory. It counts the samples of the hogels that are read.
+// A wave that converges on a viewpoint, computed on demand. It counts the samples of the hogels that are read.
 class Hogels final : public FieldSource {
   public:
     Hogels(std::size_t side, std::size_t alignment, Vec3 eye) : alignment_(alignment), eye_(eye) {

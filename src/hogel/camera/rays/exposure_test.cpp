@@ -35,7 +35,7 @@ std::vector<float> noise(std::size_t count) {
     return values;
 }
 
-// Places on a line that neighbours often share, and sometimes jump to and fro between.
+// Positions on a line that neighbours often share, with occasional jumps.
 std::vector<std::int32_t> places(std::size_t count, std::size_t below) {
     std::vector<std::int32_t> low(count);
     for (std::size_t i = 0; i < count; ++i) low[i] = static_cast<std::int32_t>((i % 7 == 0 ? 5 * i : i / 2) % below);
@@ -110,7 +110,8 @@ Image picture_of(const LightFieldBuffer& light_field, const Camera& camera, Impl
     return image;
 }
 
-// Few directions, one, and one hogel; eyes before the middle and so far aside that a part of the hologram is black.
+// Few directions, one direction, and one hogel; viewpoints in front of the middle and so far aside that a part of the
+// hologram is black.
 const std::vector<LightFieldGrid> grids{
     {50, 9, 100_um, 12, 10, Perspective{0.05, 0.02}, 3},
     {50, 9, 100_um, 12, 60, Perspective{0.05, 0.02}, 1},
@@ -170,7 +171,7 @@ TEST_P(Exposures, of_a_photographer_are_those_of_a_light_field) {
     }
 }
 
-// What has no columns and rows of directions is read by each photograph.
+// Light fields without separable directions are read by each photograph.
 TEST(RayPhotographer, shows_directions_in_sines_and_hemicubes_too) {
     const LightFieldBuffer sines = noise_on({20, 9, 100_um, 12, 10, Frequencies{{0.05, 0.02}}, 1});
     std::vector<LightFieldBuffer> faces;

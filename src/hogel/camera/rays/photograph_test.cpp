@@ -71,7 +71,7 @@ TEST(GeometricPhotograph, shows_a_linear_radiance_where_the_line_of_sight_meets_
     }
 }
 
-// So it is with a fixed focal plane, in front of the hologram or behind it, whichever sees the plane.
+// The same with a fixed focal plane, in front of the hologram or behind it.
 TEST(GeometricPhotograph, with_a_fixed_focal_plane_shows_a_linear_radiance_where_the_line_of_sight_meets_it) {
     const auto f = [](double x, double y) { return 1 + 100 * x - 60 * y; };
     for (const double focal : {-0.1, -0.15, 0.2})
@@ -88,7 +88,7 @@ TEST(GeometricPhotograph, with_a_fixed_focal_plane_shows_a_linear_radiance_where
         }
 }
 
-// An eye where one of the cameras stood sees that camera's samples and no others.
+// A viewpoint at one of the cameras sees that camera's samples and no others.
 TEST(GeometricPhotograph, from_a_point_of_the_focal_plane_shows_its_samples) {
     LightFieldGrid grid = coarse;
     grid.view = FocalPlane{{0.25, 0.22}, -0.1};

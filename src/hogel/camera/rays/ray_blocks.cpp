@@ -38,8 +38,7 @@ std::vector<Block> blocks(const LightFieldGrid& grid) {
 void require_ray_camera(const Camera& camera) {
     validate(camera);
     if (camera.focus_slope_x != 0 || camera.focus_slope_y != 0)
-        throw Error(ErrorCode::usage, "focus_tilt",
-                    "rays are photographed on a film parallel to the hologram; it cannot be tilted");
+        throw Error(ErrorCode::usage, "focus_tilt", "the ray camera does not support a tilted plane in focus");
 }
 
 }  // namespace hogel::camera::rays

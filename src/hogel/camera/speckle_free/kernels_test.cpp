@@ -24,7 +24,7 @@ std::vector<float> noise(std::size_t count) {
     return values;
 }
 
-// Hogels with and without a rest, bases of fewer and of more waves than a vector holds.
+// Hogels that fill vectors and that do not, bases with fewer and with more waves than a vector holds.
 TEST_P(ExpectedKernels, vector_and_plain_sums_of_powers_agree) {
     for (const std::size_t n : {8, 16, 27, 32, 64})
         for (const double half_band : {0.3, 1.1, 4.2}) {
@@ -75,7 +75,7 @@ TEST_P(ExpectedKernels, vector_and_plain_products_of_matrices_agree) {
             }
 }
 
-// Over pairs of points of the pupil, the product of the lights of any wave is that of the basis's.
+// For pairs of points of the pupil, the product of the lights of any wave is that of its expansion in the basis.
 TEST(PsfBasis, gives_the_products_of_all_waves) {
     for (const std::size_t n : {16, 32, 45})
         for (const double half_band : {0.2, 0.8, 1.1, 2.5}) {

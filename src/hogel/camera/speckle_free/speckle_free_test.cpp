@@ -89,7 +89,7 @@ TEST(ExpectedPhotograph, is_what_means_of_looks_converge_to) {
     }
 }
 
-// The share of a picture's light that is beside the outline of a hologram.
+// Returns the share of a picture's light beside the outline of a hologram.
 double share_beside(const Image& image, const Grid& picture, const Grid& hologram) {
     const Rectangle outline(hologram);
     double beside = 0;
@@ -109,7 +109,8 @@ struct Outline {
 
 class Surroundings : public ::testing::TestWithParam<Outline> {};
 
-// Beside the outline all cameras show the blur of a hologram out of focus, and what floats before its edge, as rays do.
+// All cameras show, beside the outline, the blur of a hologram out of focus and points that float in front of its edge,
+// as rays do.
 TEST_P(Surroundings, are_lit_alike_by_rays_and_by_waves) {
     const LightFieldGrid grid{24, 22, 48_um, 24, 24, Perspective{0.15, 0.15}, 1};
     const LightField light_field = light_field_of_faces({&grid, 1}, GetParam().radiance);
@@ -142,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(FieldsAndFocuses, Surroundings,
                                            Outline{"card", -4_mm, card_before_the_edge, 0.05}),
                          [](const auto& outline) { return outline.param.name; });
 
-// Bands of rows of hogels and one eye at a time give the same pictures.
+// Bands of rows of hogels and one viewpoint at a time give the same pictures.
 TEST(ExpectedPhotograph, fits_into_little_memory) {
     const Case c = cases().front();
     const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
@@ -158,7 +159,7 @@ TEST(ExpectedPhotograph, fits_into_little_memory) {
     for (std::size_t i = 0; i < cameras.size(); ++i) EXPECT_LT(distance(whole[i], bands[i]), 1e-5 * mean(whole[i]));
 }
 
-// How far it is tells others how much of it is left.
+// Progress comes in small steps, because callers estimate the remaining time from it.
 TEST(ExpectedPhotograph, says_in_small_steps_how_far_it_is) {
     const Case c = cases().front();
     const LightField light_field = light_field_of_faces({&c.grid, 1}, stripes);
