@@ -39,12 +39,12 @@ class SampledBandSource final : public PupilBandSource {
 
 }  // namespace
 
-std::unique_ptr<PupilBandSource> make_band_source(const FieldSource& whole, const Region& part,
+std::unique_ptr<PupilBandSource> make_band_source(const FieldSource& hologram, const Region& part,
                                                   const FieldSource& window, std::span<const Viewpoint> viewpoints,
                                                   BandSource source, const hogel_spectra::WaveCache* wave_cache) {
     std::unique_ptr<PupilBandSource> bands;
-    if (source != BandSource::samples && whole.stereogram() != nullptr)
-        bands = hogel_spectra::make_hogel_band_source(*whole.stereogram(), part, viewpoints, wave_cache);
+    if (source != BandSource::samples && hologram.stereogram() != nullptr)
+        bands = hogel_spectra::make_hogel_band_source(*hologram.stereogram(), part, viewpoints, wave_cache);
     if (!bands && source == BandSource::hogel_spectra)
         throw Error(ErrorCode::usage, "camera",
                     "photographs from hogel spectra need a stereogram that is made on demand by a method with known "

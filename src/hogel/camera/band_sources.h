@@ -14,9 +14,9 @@ namespace hogel::camera {
 /// and `source` allows them, and otherwise the samples. Throws Error(usage) if `source` demands hogel spectra that
 /// cannot be used.
 ///
-/// @param window      the part as a field of its own; it and `whole` must outlive the result
+/// @param window      the part as a field of its own; it and `hologram` must outlive the result
 /// @param wave_cache  waves of the first look, or null
-std::unique_ptr<PupilBandSource> make_band_source(const FieldSource& whole, const Region& part,
+std::unique_ptr<PupilBandSource> make_band_source(const FieldSource& hologram, const Region& part,
                                                   const FieldSource& window, std::span<const Viewpoint> viewpoints,
                                                   BandSource source,
                                                   const hogel_spectra::WaveCache* wave_cache = nullptr);

@@ -92,19 +92,19 @@ std::size_t lines_between(const FieldGrid& hologram, std::span<const Camera> cam
 }
 
 // A picture of thin lines in rows fine enough to be spread to the height of the lines: `share` rows per row of the
-// camera's picture, and `beside` rows above and below for light that spreads into the picture.
+// camera's picture, and `margin_rows` rows above and below for light that spreads into the picture.
 struct FineRows {
-    std::size_t share = 1, beside = 0;
+    std::size_t share = 1, margin_rows = 0;
     Camera camera;
 
-    FineRows(const Camera& of, double line_height) : camera(of) {
+    FineRows(const Camera& coarse, double line_height) : camera(coarse) {
         constexpr double rows_in_line = 16;
         Grid& picture = camera.picture;
         share =
             std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(rows_in_line * picture.pitch_y / line_height)));
         picture.pitch_y /= static_cast<double>(share);
-        beside = static_cast<std::size_t>(std::ceil(0.5 * line_height / picture.pitch_y));
-        picture.height = share * picture.height + 2 * beside;
+        margin_rows = static_cast<std::size_t>(std::ceil(0.5 * line_height / picture.pitch_y));
+        picture.height = share * picture.height + 2 * margin_rows;
     }
 
     // Returns the integral of the overlap of a pixel of height `pixel` and a line of height `line` over the distance of
@@ -124,7 +124,7 @@ struct FineRows {
     // as bright.
     void spread(const Image& fine, double line_height, double factor, Image& picture) const {
         const double row = camera.picture.pitch_y, pixel = row * static_cast<double>(share);
-        std::vector<float> weights(share + 2 * beside);
+        std::vector<float> weights(share + 2 * margin_rows);
         for (std::size_t i = 0; i < weights.size(); ++i) {
             const double low = (static_cast<double>(i) - 0.5 * static_cast<double>(weights.size())) * row;
             // `share` fine rows form a pixel.

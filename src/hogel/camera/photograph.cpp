@@ -30,22 +30,22 @@ namespace {
 // A part of a field as a source.
 class Window final : public FieldSource {
   public:
-    Window(const FieldSource& whole, const Region& region)
-        : whole_(whole), region_(region), grid_{part(whole.grid().plane, region), whole.grid().wavelength} {}
+    Window(const FieldSource& field, const Region& region)
+        : field_(field), region_(region), grid_{part(field.grid().plane, region), field.grid().wavelength} {}
     const FieldGrid& grid() const override { return grid_; }
-    std::size_t looks() const override { return whole_.looks(); }
+    std::size_t looks() const override { return field_.looks(); }
     std::size_t alignment() const override {
-        const std::size_t step = whole_.alignment();
+        const std::size_t step = field_.alignment();
         return region_.x0 % step == 0 && region_.y0 % step == 0 ? step : 1;
     }
-    const Provenance& provenance() const override { return whole_.provenance(); }
+    const Provenance& provenance() const override { return field_.provenance(); }
     void read(const Region& region, std::size_t look, View<std::complex<float>, 2> out) const override {
         validate(region, grid_, out.shape());
-        whole_.read({region_.x0 + region.x0, region_.y0 + region.y0, region.width, region.height}, look, out);
+        field_.read({region_.x0 + region.x0, region_.y0 + region.y0, region.width, region.height}, look, out);
     }
 
   private:
-    const FieldSource& whole_;
+    const FieldSource& field_;
     Region region_;
     FieldGrid grid_;
 };
@@ -83,13 +83,13 @@ Region whole_hogels(const Region& region, const FieldSource& source) {
 }
 
 // Adds the light of one window to the pictures of the cameras of one pass.
-void photograph_window(const FieldSource& whole, const PhotographPlan::Window& part, std::span<const Camera> cameras,
+void photograph_window(const FieldSource& hologram, const PhotographPlan::Window& part, std::span<const Camera> cameras,
                        const std::vector<SharedViewpoint>& viewpoints, const BandCamera& model,
                        const PhotographPlan& plan, std::span<Image> images, const Progress& progress) {
-    const Region region = whole_hogels(part.region, whole);
-    const Window window(whole, region);
+    const Region region = whole_hogels(part.region, hologram);
+    const Window window(hologram, region);
     const std::vector<Viewpoint> lenses = viewpoints_of(viewpoints, cameras, model.preview);
-    ColourBands bands{make_band_source(whole, region, window, lenses, model.source),
+    ColourBands bands{make_band_source(hologram, region, window, lenses, model.source),
                       {window.grid()},
                       viewpoints,
                       part.shown,
@@ -198,9 +198,9 @@ void camera::photograph_by(const FieldSource& hologram, std::span<const Camera> 
     std::size_t done = 0;
     for (const std::vector<std::size_t>& pass : plan.passes)
         for (const PhotographPlan::Window& window : plan.windows) {
-            const bool seen = std::ranges::any_of(
+            const bool is_seen = std::ranges::any_of(
                 pass, [&](std::size_t i) { return Rectangle(cameras[i].picture).meets(window.shown); });
-            if (seen)
+            if (is_seen)
                 photograph_window(hologram, window, cameras, group_by_viewpoint(cameras, pass), model, plan, pictures,
                                   [&](double fraction) {
                                       return !progress || progress((static_cast<double>(done) + fraction) / parts);

@@ -169,11 +169,11 @@ std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras,
         const Rectangle picture(cameras[i].picture);
         if (viewpoint == viewpoints.end())
             viewpoint = viewpoints.insert(viewpoints.end(), SharedViewpoint{.members = {}, .pictures = picture});
-        Rectangle& all = viewpoint->pictures;
-        all.left = std::min(all.left, picture.left);
-        all.right = std::max(all.right, picture.right);
-        all.bottom = std::min(all.bottom, picture.bottom);
-        all.top = std::max(all.top, picture.top);
+        Rectangle& bounds = viewpoint->pictures;
+        bounds.left = std::min(bounds.left, picture.left);
+        bounds.right = std::max(bounds.right, picture.right);
+        bounds.bottom = std::min(bounds.bottom, picture.bottom);
+        bounds.top = std::max(bounds.top, picture.top);
         viewpoint->members.push_back(i);
         viewpoint->pupil = std::max(viewpoint->pupil, cameras[i].pupil);
         viewpoint->blur = std::max(viewpoint->blur, defocus_blur(cameras[i]));
@@ -240,8 +240,8 @@ PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camer
 double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> cameras, double memory, std::size_t looks,
                         double share) {
     const PhotographPlan plan = plan_photographs(hologram, cameras, memory);
-    const auto more = static_cast<double>(plan.looks_at_once(memory, looks, share) - 1);
-    return plan.bytes + std::min(more * share * plan.bytes_per_look, memory);
+    const auto further_looks = static_cast<double>(plan.looks_at_once(memory, looks, share) - 1);
+    return plan.bytes + std::min(further_looks * share * plan.bytes_per_look, memory);
 }
 
 }  // namespace hogel::camera

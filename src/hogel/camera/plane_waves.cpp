@@ -284,10 +284,10 @@ std::optional<FocusedWave> wave_in_focus(const Spectrum& at_lens, const Camera& 
     if (communicator == nullptr)
         return FocusedWave{wave_of(spectrum, width, height, options.scratch), pupil_area, origin, {}, scale};
     const Grid plane = grid_of(spectrum, width, height);
-    const auto wanted = [&](std::size_t rank) {
+    const auto rows_of_rank = [&](std::size_t rank) {
         return film_rows(plane, scale, origin, camera, rows_of(rank, camera, communicator));
     };
-    return FocusedWave{wave_of(std::move(spectrum), width, height, options.scratch, *communicator, wanted),
+    return FocusedWave{wave_of(std::move(spectrum), width, height, options.scratch, *communicator, rows_of_rank),
                        pupil_area,
                        origin,
                        {},

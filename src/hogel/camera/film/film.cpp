@@ -55,8 +55,8 @@ std::vector<ActiveRows> active_rows_of(const std::vector<char>& is_active) {
     std::vector<ActiveRows> ranges;
     for (std::size_t row = 0; row < is_active.size(); ++row) {
         if (!is_active[row]) continue;
-        constexpr double reach = InterpolationTable::taps;
-        const double begin = static_cast<double>(row) - reach, end = static_cast<double>(row) + reach;
+        constexpr double margin = InterpolationTable::taps;
+        const double begin = static_cast<double>(row) - margin, end = static_cast<double>(row) + margin;
         if (!ranges.empty() && begin <= ranges.back().end)
             ranges.back().end = end;
         else

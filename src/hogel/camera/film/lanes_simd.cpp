@@ -87,13 +87,13 @@ void InterleaveRows(const math::PackedComplex* squares, std::size_t count, float
     const hn::RebindToUnsigned<D> words;
     const auto* bits = reinterpret_cast<const float*>(squares);
     for (std::size_t square = 0; square < count; ++square, bits += lanes_per_row * lanes_per_row) {
-        HWY_ALIGN float turned[lanes_per_row * lanes_per_row];
+        HWY_ALIGN float transposed[lanes_per_row * lanes_per_row];
         transpose_sixteen([&](std::size_t lane) { return bits + lane * lanes_per_row; }, lanes_per_row,
-                          [&](std::size_t i) { return turned + i * lanes_per_row; });
+                          [&](std::size_t i) { return transposed + i * lanes_per_row; });
         for (std::size_t i = 0; i < lanes_per_row; ++i, to += row)
             for (std::size_t lane = 0; lane < lanes_per_row; lane += hn::Lanes(d)) {
                 hn::Vec<D> re, im;
-                unpack(d, hn::BitCast(words, hn::Load(d, turned + i * lanes_per_row + lane)), re, im);
+                unpack(d, hn::BitCast(words, hn::Load(d, transposed + i * lanes_per_row + lane)), re, im);
                 hn::Store(re, d, to + lane);
                 hn::Store(im, d, to + lanes_per_row + lane);
             }

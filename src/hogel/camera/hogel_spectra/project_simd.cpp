@@ -59,10 +59,11 @@ HWY_INLINE void sum_columns(const float* waves, const SlepianBasis::Weights& wei
         for (std::size_t k = 0; k < functions; ++k) re[k] = im[k] = hn::Zero(d);
         const std::size_t paired = weights.pairs.size() - weights.unpaired;
         for (const SymmetricPair& pair : weights.pairs.first(paired)) {
-            const float *one = waves + 2 * lanes * pair.first + i, *other = waves + 2 * lanes * pair.second + i;
+            const float *a_wave = waves + 2 * lanes * pair.first + i, *b_wave = waves + 2 * lanes * pair.second + i;
             const V sign = hn::Set(d, pair.sign_first), sign_second = hn::Set(d, pair.sign_second);
-            const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
-            const V c = hn::Xor(hn::Load(d, other), sign_second), e = hn::Xor(hn::Load(d, other + lanes), sign_second);
+            const V a = hn::Xor(hn::Load(d, a_wave), sign), b = hn::Xor(hn::Load(d, a_wave + lanes), sign);
+            const V c = hn::Xor(hn::Load(d, b_wave), sign_second),
+                    e = hn::Xor(hn::Load(d, b_wave + lanes), sign_second);
             const V sum_re = hn::Add(a, c), sum_im = hn::Add(b, e);
             const V difference_re = hn::Sub(a, c), difference_im = hn::Sub(b, e);
             const float* weight = pair.weights + first;
@@ -73,9 +74,9 @@ HWY_INLINE void sum_columns(const float* waves, const SlepianBasis::Weights& wei
             }
         }
         for (const SymmetricPair& pair : weights.pairs.subspan(paired)) {
-            const float* one = waves + 2 * lanes * pair.first + i;
+            const float* a_wave = waves + 2 * lanes * pair.first + i;
             const V sign = hn::Set(d, pair.sign_first);
-            const V a = hn::Xor(hn::Load(d, one), sign), b = hn::Xor(hn::Load(d, one + lanes), sign);
+            const V a = hn::Xor(hn::Load(d, a_wave), sign), b = hn::Xor(hn::Load(d, a_wave + lanes), sign);
             for (std::size_t k = 0; k < functions; ++k) {
                 const V w = hn::Set(d, pair.weights[first + k]);
                 re[k] = hn::MulAdd(w, a, re[k]);
@@ -96,7 +97,7 @@ HWY_INLINE void sum_pairs_of_rows(const float* in, const SlepianBasis::Weights& 
     const D d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V sums[functions];
-        for (V& one : sums) one = hn::Zero(d);
+        for (V& accumulator : sums) accumulator = hn::Zero(d);
         const std::size_t paired = weights.pairs.size() - weights.unpaired;
         for (const SymmetricPair& pair : weights.pairs.first(paired)) {
             const V a = hn::Xor(hn::Load(d, in + pair.first * lanes + i), hn::Set(d, pair.sign_first));
@@ -121,7 +122,7 @@ HWY_INLINE void sum_rows(const float* in, std::size_t rows, std::size_t in_row, 
     const D d;
     for (std::size_t i = 0; i < lanes; i += hn::Lanes(d)) {
         V sum[count];
-        for (V& one : sum) one = hn::Zero(d);
+        for (V& accumulator : sum) accumulator = hn::Zero(d);
         for (std::size_t j = 0; j < rows; ++j) {
             const V value = hn::Load(d, in + j * in_row + i);
             for (std::size_t r = 0; r < count; ++r)

@@ -34,8 +34,8 @@ struct BandWidths {
     // Half the width of the light that `per_hogel` samples per hogel represent. The demodulation is taken at the nodes,
     // some of which lie beyond the hogel's ends.
     double half_width(std::size_t per_hogel) const {
-        const double reach = 0.5 + 3 / static_cast<double>(per_hogel);
-        return pupil * (1 + guard) + bend * reach + 0.5 / static_cast<double>(SlepianBasis::fractions);
+        const double node_extent = 0.5 + 3 / static_cast<double>(per_hogel);
+        return pupil * (1 + guard) + bend * node_extent + 0.5 / static_cast<double>(SlepianBasis::fractions);
     }
     // Returns enough samples for the film's interpolation to pass the pupil's light, and to represent the light of a
     // hogel.
@@ -149,8 +149,8 @@ void PupilBand::demodulation(std::size_t x0, std::size_t y0, View<float, 3> phas
     const camera::ViewGeometry& geometry = grid_.geometry;
     const Grid& plane = grid_.plane;
     const double wavelength = geometry.wavelength(), frequency = 1 / wavelength, z = geometry.eye().z;
-    constexpr double reach = 0.5 * static_cast<double>(lanes);
-    const double half_side = reach * std::max(plane.pitch_x, plane.pitch_y);
+    constexpr double half_count = 0.5 * static_cast<double>(lanes);
+    const double half_side = half_count * std::max(plane.pitch_x, plane.pitch_y);
     const std::size_t row_stride = phases.extent(2);
     for (std::size_t down = 0; down < phases.extent(0); down += lanes)
         for (std::size_t across = 0; across < row_stride; across += lanes) {
@@ -164,7 +164,7 @@ void PupilBand::demodulation(std::size_t x0, std::size_t y0, View<float, 3> phas
             float* destination = &phases(down, 0, across);
             // Checks the next terms of the series, in cycles, and the angle that the polynomial of the phasor allows.
             if (half_side * half_side * half_side / (distance * distance * wavelength) < 2e-4 &&
-                2 * std::numbers::pi * std::abs(bend) * reach * reach < 0.1) {
+                2 * std::numbers::pi * std::abs(bend) * half_count * half_count < 0.1) {
                 hogel_spectra::demodulation({x, plane.pitch_x, y * y + z * z, frequency, distance * frequency},
                                             {y, -plane.pitch_y, x * x + z * z, frequency, 0}, bend, rows, destination,
                                             row_stride);

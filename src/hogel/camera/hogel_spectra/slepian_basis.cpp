@@ -226,9 +226,9 @@ SlepianBasis::Weights SlepianBasis::weights(double frequency) const {
     const auto n = static_cast<std::int32_t>(samples_);
     constexpr auto parts = static_cast<std::int32_t>(fractions);
     const auto steps = static_cast<std::int32_t>(std::floor(frequency * parts + 0.5));
-    const std::int32_t whole = floored(steps, parts), periods = floored(whole, n);
-    const auto fraction = static_cast<std::size_t>(steps - whole * parts);
-    const auto first = static_cast<std::size_t>(whole - periods * n);
+    const std::int32_t integer = floored(steps, parts), periods = floored(integer, n);
+    const auto fraction = static_cast<std::size_t>(steps - integer * parts);
+    const auto first = static_cast<std::size_t>(integer - periods * n);
     const bool opposite = samples_ % 2 == 0 && periods % 2 != 0;
     const std::size_t count = count_[fraction];
     const auto period = static_cast<std::int32_t>(carriers_.extent(0));

@@ -104,9 +104,9 @@ void DecimatedColumns(const std::complex<float>* rows, const ColumnDecimation& d
     for (; x + lanes <= floats; x += lanes)
         columns_block<1>(in + x, decimation, by_row.data(), to + x, out_stride, count);
     if (x == floats) return;
-    ColumnDecimation rest = decimation;
-    rest.width = (floats - x) / 2;
-    decimated_columns_plain(rows + x / 2, rest, out + x / 2, out_stride, count);
+    ColumnDecimation remainder = decimation;
+    remainder.width = (floats - x) / 2;
+    decimated_columns_plain(rows + x / 2, remainder, out + x / 2, out_stride, count);
 }
 
 void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out) {
@@ -125,9 +125,9 @@ void MakePathPhases(const PathPhases& paths, std::span<std::complex<float>> out)
         camera::HWY_NAMESPACE::unit_phasors(dd, cycles, cosine, sine);
         hn::StoreInterleaved2(cosine, sine, df, reinterpret_cast<float*>(&out[i]));
     }
-    PathPhases rest = paths;
-    rest.first += static_cast<double>(i) * paths.pitch;
-    path_phases_plain(rest, out.subspan(i));
+    PathPhases remainder = paths;
+    remainder.first += static_cast<double>(i) * paths.pitch;
+    path_phases_plain(remainder, out.subspan(i));
 }
 
 void DecimatedLine(const std::complex<float>* line, std::size_t step, std::span<const float> taps,

@@ -50,8 +50,8 @@ HogelBlock block_of(View<const float, 5> radiance, std::size_t s0, std::size_t t
 
 LoadedHogels load_hogels(const LightFieldSource& face, const HogelRange& range) {
     LoadedHogels loaded;
-    if (const View<const float, 5> whole = face.in_memory(); whole.size() > 0) {
-        loaded.block = block_of(whole, 0, 0, range);
+    if (const View<const float, 5> in_memory = face.in_memory(); in_memory.size() > 0) {
+        loaded.block = block_of(in_memory, 0, 0, range);
         return loaded;
     }
     loaded.tile = LightFieldTile(face.grid(), range, false);

@@ -54,7 +54,7 @@ void mix_lines_plain(std::span<const float> a, std::span<const float> b, float w
 extern decltype(mix_lines_plain)& mix_lines;
 
 /// Computes out[i] += the value of `line` interpolated between low[i] and low[i] + next.
-void add_between_plain(std::span<const float> line, std::size_t next, const Places& places, std::span<float> out);
+void add_between_plain(std::span<const float> line, std::size_t next, const Places& positions, std::span<float> out);
 extern decltype(add_between_plain)& add_between;
 
 }  // namespace hogel::camera::rays

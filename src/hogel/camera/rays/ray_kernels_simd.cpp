@@ -14,8 +14,8 @@ using Value = hn::Vec<Floats>;
 // Multiplies and adds separately, so that the bytes are those of the plain twins.
 HWY_INLINE Value mix(Value a, Value b, Value weight) { return hn::Add(a, hn::Mul(hn::Sub(b, a), weight)); }
 
-HWY_INLINE Places rest_of(const Places& places, std::size_t done) {
-    return {places.low.subspan(done), places.high_weight.subspan(done)};
+HWY_INLINE Places remainder_of(const Places& positions, std::size_t done) {
+    return {positions.low.subspan(done), positions.high_weight.subspan(done)};
 }
 
 void SampleBetween(const HogelRows& hogels, const Places& directions, std::span<float> out) {
@@ -40,14 +40,14 @@ void SampleBetween(const HogelRows& hogels, const Places& directions, std::span<
     }
     const std::size_t done = vectors * lanes;
     if (done == out.size()) return;
-    HogelRows rest = hogels;
-    rest.top += done * hogels.hogel;
-    rest.bottom += done * hogels.hogel;
-    sample_between_plain(rest, rest_of(directions, done), out.subspan(done));
+    HogelRows remainder = hogels;
+    remainder.top += done * hogels.hogel;
+    remainder.bottom += done * hogels.hogel;
+    sample_between_plain(remainder, remainder_of(directions, done), out.subspan(done));
 }
 
 template <class Sample>
-HWY_INLINE FourDirections<Sample> rest_of(const FourDirections<Sample>& from, std::size_t done) {
+HWY_INLINE FourDirections<Sample> remainder_of(const FourDirections<Sample>& from, std::size_t done) {
     return {from.top_left + done, from.top_right + done, from.bottom_left + done, from.bottom_right + done};
 }
 
@@ -64,21 +64,21 @@ HWY_INLINE void sample_along_loading(const FourDirections<Sample>& from, std::sp
         const auto below = mix(load(from.bottom_left + i), load(from.bottom_right + i), right);
         hn::StoreU(mix(above, below, bottom), df, &out[i]);
     }
-    sample_along_plain(rest_of(from, i), right_weight.subspan(i), bottom_weight, out.subspan(i));
+    sample_along_plain(remainder_of(from, i), right_weight.subspan(i), bottom_weight, out.subspan(i));
 }
 
 void LookAlong(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
                std::span<float> out) {
     sample_along_loading(from, right_weight, bottom_weight, out,
-                         [](const float* at) { return hn::LoadU(Floats(), at); });
+                         [](const float* address) { return hn::LoadU(Floats(), address); });
 }
 
 void LookAlongHalves(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,
                      float bottom_weight, std::span<float> out) {
-    sample_along_loading(from, right_weight, bottom_weight, out, [](const std::uint16_t* at) {
+    sample_along_loading(from, right_weight, bottom_weight, out, [](const std::uint16_t* address) {
         const hn::Rebind<hwy::float16_t, Floats> dh;
         const hn::Rebind<std::uint16_t, Floats> du;
-        return hn::PromoteTo(Floats(), hn::BitCast(dh, hn::LoadU(du, at)));
+        return hn::PromoteTo(Floats(), hn::BitCast(dh, hn::LoadU(du, address)));
     });
 }
 
@@ -92,18 +92,18 @@ void MixLines(std::span<const float> a, std::span<const float> b, float weight, 
     mix_lines_plain(a.subspan(i), b.subspan(i), weight, out.subspan(i));
 }
 
-void AddBetween(std::span<const float> line, std::size_t next, const Places& places, std::span<float> out) {
+void AddBetween(std::span<const float> line, std::size_t next, const Places& positions, std::span<float> out) {
     const Floats df;
     const Indices di;
     const std::size_t lanes = hn::Lanes(df);
     std::size_t i = 0;
     for (; i + lanes <= out.size(); i += lanes) {
-        const auto low = hn::LoadU(di, &places.low[i]);
+        const auto low = hn::LoadU(di, &positions.low[i]);
         const auto value = mix(hn::GatherIndex(df, line.data(), low), hn::GatherIndex(df, line.data() + next, low),
-                               hn::LoadU(df, &places.high_weight[i]));
+                               hn::LoadU(df, &positions.high_weight[i]));
         hn::StoreU(hn::Add(hn::LoadU(df, &out[i]), value), df, &out[i]);
     }
-    add_between_plain(line, next, rest_of(places, i), out.subspan(i));
+    add_between_plain(line, next, remainder_of(positions, i), out.subspan(i));
 }
 
 }  // namespace hogel::camera::rays::HWY_NAMESPACE

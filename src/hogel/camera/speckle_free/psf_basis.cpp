@@ -125,9 +125,9 @@ PsfBasis::Weights PsfBasis::weights(double frequency) const {
     const std::size_t samples = this->samples();
     const auto n = static_cast<double>(samples);
     const double steps = std::round((frequency - n * std::floor(frequency / n)) * static_cast<double>(fractions));
-    const auto whole = static_cast<std::size_t>(steps) / fractions % samples,
+    const auto integer = static_cast<std::size_t>(steps) / fractions % samples,
                fraction = static_cast<std::size_t>(steps) % fractions;
-    return {&table_(fraction, whole, 0), padded_count()};
+    return {&table_(fraction, integer, 0), padded_count()};
 }
 
 }  // namespace hogel::camera::speckle_free
