@@ -47,7 +47,7 @@ void expose(const ColourBands& bands, std::span<const Camera> cameras, std::span
             progress.part(static_cast<double>(first) / looks, static_cast<double>(first + batch) / looks);
         PackedBands packed = bands.source->synthesize(first, batch, batch_progress.part(0.0, 0.9));
         if (!is_root_rank()) continue;  // the root has the bands of all
-        // One film at a time; the next one reuses its memory.
+        // One film at a time reuses the same memory.
         for (std::size_t b = 0; b < count; ++b) {
             const std::size_t colour = b / viewpoints;
             const SharedViewpoint& viewpoint = bands.viewpoints[b % viewpoints];

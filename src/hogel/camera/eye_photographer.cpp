@@ -128,7 +128,6 @@ struct EyePhotographer::State {
                0.5 * static_cast<double>(band()->memory);
     }
 
-    // Adds a look to a colour's intensities.
     void expose(std::size_t colour, std::size_t look, const Camera& camera, View<float, 2> intensity) {
         ColourFilm& colour_film = current.colours[colour];
         if (look < colour_film.waves.size())

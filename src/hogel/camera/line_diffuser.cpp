@@ -120,8 +120,7 @@ struct FineRows {
         return y <= 0 ? integral(y) / area : 1 - integral(-y) / area;
     }
 
-    // Spreads a fine picture of thin lines to lines of this height, and adds it to the camera's picture, `factor` times
-    // as bright.
+    // Spreads thin lines to this height, and adds them to the camera's picture, `factor` times as bright.
     void spread(const Image& fine, double line_height, double factor, Image& picture) const {
         const double row = camera.picture.pitch_y, pixel = row * static_cast<double>(share);
         std::vector<float> weights(share + 2 * margin_rows);
@@ -189,8 +188,7 @@ void photograph_lines(const FieldSource& hologram, std::span<const Camera> camer
     }
     std::vector<Image> fine_pictures(cameras.size());
     photograph_into(ThinLines(hologram, rows, every), fine_cameras, without_diffuser(model), fine_pictures, progress);
-    // A thin row stands for a whole line, with `rows` times its amplitude. The picture is a mean over the sets of lines
-    // instead of their sum.
+    // A thin row has `rows` times the amplitude of a whole line; the picture is a mean over the sets, not their sum.
     const double factor = static_cast<double>(rows) * static_cast<double>(rows) * static_cast<double>(every);
     for (std::size_t i = 0; i < cameras.size(); ++i) fine[i].spread(fine_pictures[i], line_height, factor, pictures[i]);
 }

@@ -20,7 +20,6 @@ namespace hogel::camera {
 /// 16 × 16: a part of a hologram then touches few pages, and sixteen rows are read sequentially.
 class PackedBand {
   public:
-    /// Numbers along a side of a square.
     static constexpr std::size_t side = 16;
     /// Numbers in a square, the stride between squares of a row.
     static constexpr std::size_t square = side * side;
@@ -35,9 +34,8 @@ class PackedBand {
     PackedBand& operator=(PackedBand&&) = default;
     ~PackedBand() = default;
 
-    /// Returns bands of zeros of the same size in one block of memory, cleared on all threads. The block has huge
-    /// pages, which the system clears in a fraction of the time of small ones. The last band that is destroyed frees
-    /// it.
+    /// Returns bands of zeros in one block of memory, cleared on all threads. The block has huge pages, which the
+    /// system clears in a fraction of the time of small ones. The last band that is destroyed frees it.
     static std::vector<PackedBand> dark(std::size_t count, std::size_t height, std::size_t width);
 
     static double bytes(const Grid& plane) {
@@ -60,7 +58,6 @@ class PackedBand {
 
   private:
     static constexpr std::size_t count_squares(std::size_t numbers) { return (numbers + side - 1) / side; }
-    // Numbers in the squares of a band of this size.
     static constexpr std::size_t padded_size(std::size_t height, std::size_t width) {
         return count_squares(height) * count_squares(width) * square;
     }

@@ -38,8 +38,7 @@ double metres_per_sine(const FieldGrid& hologram, const Vec3& viewpoint) {
     return max_distance / (cosine * cosine);
 }
 
-// Returns the margin, metres, of a film around the part that a window shows: the distance that light travels from its
-// point.
+// Returns the margin, metres, of a film around a window's part: the distance that light travels from its point.
 double margin(const FieldGrid& hologram, const Vec3& viewpoint, double pupil, double blur) {
     return metres_per_sine(hologram, viewpoint) * (margin_cells * hologram.wavelength / pupil + 0.5 * blur);
 }
@@ -120,8 +119,7 @@ PhotographPlan find_plan(const FieldGrid& hologram, std::span<const Camera> came
             const double work =
                 static_cast<double>(passes.size()) * read / static_cast<double>(hologram.plane.samples());
             if (work >= min_work) continue;
-            // Tests windows at the ends, at the quarters and in the middle only, because memory varies slowly from one
-            // to the next.
+            // Tests five windows, at the ends, the quarters and in the middle, because memory varies slowly.
             std::set<std::size_t> probes{0, list.size() / 2, list.size() - 1, list.size() / 4, 3 * list.size() / 4};
             double fixed = 0, per_look = 0;
             for (const auto& pass : passes)
@@ -188,8 +186,7 @@ std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras)
 }
 
 std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, double share) const {
-    // At most the memory that core::FreedBlocks keeps for reuse. The system would clear more each time, a second per
-    // gigabyte.
+    // At most the memory that core::FreedBlocks keeps. The system would clear more each time, a second per gigabyte.
     const double spare = std::clamp(memory - bytes, 0.0, 1024.0 * 1024 * 1024);
     const double max_looks = 1 + std::floor(spare / (bytes_per_look * share)), total = static_cast<double>(looks);
     // Passes of equal size.

@@ -56,10 +56,8 @@ double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> camer
                         double share = 1);
 
 /// Whether all colours are synthesised together, from rays that are made once, with the bands of all colours in memory.
-/// Otherwise colours follow each other, which makes the rays again and needs a third of the memory. The system clears
-/// new memory at one to three nanoseconds a byte; a ray takes one to four, and a hologram has about as many rays as
-/// samples.
-/// @param band_bytes  of all viewpoints and looks of a colour
+/// Otherwise colours follow each other, which makes the rays again and needs a third of the memory. Clearing new memory
+/// takes 1 to 3 ns a byte, and a ray 1 to 4 ns; a hologram has about as many rays as samples.
 inline bool renders_colours_together(double band_bytes, const Grid& hologram) {
     return band_bytes <= static_cast<double>(hologram.samples());
 }
@@ -71,7 +69,6 @@ struct SharedViewpoint {
     Rectangle pictures;                ///< bounding rectangle of all pictures
 };
 std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras, std::span<const std::size_t> members);
-/// Groups all cameras.
 std::vector<SharedViewpoint> group_by_viewpoint(std::span<const Camera> cameras);
 
 }  // namespace hogel::camera

@@ -12,8 +12,7 @@
 namespace hogel::camera {
 namespace {
 
-// Returns nothing if the colours cannot share rays, or if their bands do not fit into memory together or cost more time
-// than rays.
+// Returns nothing if colours cannot share rays, or their bands do not fit into memory or cost more time than rays.
 std::optional<ColourBands> bands_of_colours(std::span<const std::shared_ptr<const FieldSource>> colours,
                                             std::span<const Camera> cameras, const BandCamera& model) {
     if (colours.size() < 2 || cameras.empty() || model.vertical_diffuser || model.source == BandSource::samples)

@@ -39,8 +39,8 @@ constexpr double edge_margin = 1.1;
 double fade_width(double wavelength, double distance) { return 2 * std::sqrt(wavelength * distance); }
 
 // Minimum number of resolution cells across the hologram. With fewer, light that spreads from the small opening wraps
-// around the window. Root mean square errors against the direct sum of a hologram of random phases are 9 % with 4.3
-// cells, 17 % with 3, 35 % with 2.
+// around. Root mean square errors against the direct sum, for random phases: 9 % with 4.3 cells, 17 % with 3, 35 % with
+// 2.
 constexpr double min_cells = 4;
 
 struct PlaneWaveJob {
@@ -59,7 +59,6 @@ std::array<Vec3, 4> corners(const Rectangle& area) {
              {area.right, area.top, 0}}};
 }
 
-// Returns the square around a pupil.
 Rectangle square_around(Vec3 viewpoint, double pupil) {
     return Rectangle(Grid{1, 1, pupil, pupil, viewpoint.x, viewpoint.y});
 }
@@ -96,8 +95,7 @@ Grid plane_around(const Rectangle& area, const Grid& hologram) {
             hologram.center_y};
 }
 
-// Returns the wave at the lens of one viewpoint, just before its opening, restricted to the directions between the
-// hologram and the pupil.
+// Returns the wave just before a lens's opening, restricted to the directions between the hologram and the pupil.
 Spectrum wave_at_lens(const PlaneWaveJob& job, std::span<const Camera> cameras, const SharedViewpoint& viewpoint,
                       const Progress& progress) {
     const Grid& plane = job.hologram.grid().plane;
@@ -134,8 +132,7 @@ distributed::LineRange local_rows(const Camera& camera, const Communicator* comm
     return rows_of(communicator != nullptr ? communicator->rank() : 0, camera, communicator);
 }
 
-// The wave of the picture. It maps a point in focus to the window's centre plus `scale` times the offset of the point
-// from `origin` along the axes.
+// The wave of the picture. A point in focus is at the window's centre plus `scale` times its offset from `origin`.
 struct FocusedWave {
     Wave wave;
     double pupil_area;

@@ -14,8 +14,7 @@
 
 namespace hogel::camera {
 
-/// Position of a lens and the diameter of its widest pupil, in metres. A preview may skip waves that pass far outside
-/// the pupil.
+/// Position of a lens and the diameter of its widest pupil, metres. A preview may skip waves far outside the pupil.
 struct Viewpoint {
     Vec3 position;
     double pupil = 0;
@@ -29,7 +28,6 @@ using PackedBands = std::vector<std::vector<PackedBand>>;
 class PupilBandSource {
   public:
     virtual ~PupilBandSource() = default;
-    /// Returns the sampling of the band of a viewpoint.
     virtual const narrow_band::BandGrid& band(std::size_t viewpoint) const = 0;
     /// Returns the bytes that one look takes during synthesis.
     virtual double bytes_per_look(std::size_t viewpoint) const { return PackedBand::bytes(band(viewpoint).plane); }

@@ -25,8 +25,7 @@ struct SineGrid {
 
     double period_x() const { return static_cast<double>(size_x) * step; }
     double period_y() const { return static_cast<double>(size_y) * step; }
-    /// Returns the distance, in sines, that light may travel from its point of the hologram without wrapping around to
-    /// a part that the film shows.
+    /// Returns the distance, in sines, that light may travel without wrapping around to a part that the film shows.
     double room() const { return std::min(period_x() - farthest(x, shown_x), period_y() - farthest(y, shown_y)); }
     /// Returns the largest distance of a shown sine from one of the hologram.
     static double farthest(const Range& hologram, const Range& shown) {
@@ -50,7 +49,6 @@ SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, const R
 /// Returns a grid of one sample that covers a rectangle.
 Grid as_grid(const Rectangle& rectangle);
 
-/// Ranges of the direction sines of a plane.
 struct SineRanges {
     SineGrid::Range x, y;
 };

@@ -9,8 +9,8 @@
 
 namespace hogel::camera {
 
-/// Geometry of a hologram as seen from the viewpoint c, the centre of a lens. A point (x, y, 0) is in direction n = (x
-/// − c)/r, so n_x and n_y are direction sines. Light from it to a point δ of the pupil has the frequency n'·δ/λ after
+/// Geometry of a hologram seen from the viewpoint c, the centre of a lens. A point (x, y, 0) is in direction n = (x −
+/// c)/r, with direction sines n_x and n_y. Its light to a point δ of the pupil has the frequency n'·δ/λ after
 /// demodulation by e^{ikr}.
 class ViewGeometry {
   public:

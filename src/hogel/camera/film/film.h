@@ -23,12 +23,10 @@ namespace hogel::camera::film {
 /// Samples of a film per resolution cell. The intensity behind a pupil varies by at most one period per cell, so two
 /// samples represent it; TwelvePoint interpolates between a few more.
 inline constexpr double samples_a_cell = 2.4;
-/// Returns the samples per cell: fewer for a preview, because means over pixels wider than a cell hardly show the
-/// finest speckle.
+/// Returns the samples per cell; means over pixels wider than a cell hardly show the finest speckle of a preview.
 constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
-/// One axis of an exposed film: `size` samples of a transform over the period of the sines; only the shown samples are
-/// stored.
+/// One axis of an exposed film: a transform over the period of the sines, of which only the shown samples are stored.
 struct FilmAxis {
     std::size_t size = 0;  ///< of the transform
     std::size_t first = 0, count = 0;
@@ -47,8 +45,7 @@ struct FilmSize {
     /// @param shown  film_area()
     FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
              double blur, double samples = samples_a_cell);
-    /// Return the bytes of a pupil wave, and the maximum that Film::pupil_wave() and expose() need in addition to their
-    /// results.
+    /// Return the bytes of a pupil wave, and the peak of Film::pupil_wave() and expose() beside their results.
     double pupil_bytes() const;
     double work_bytes() const;
     /// Returns the bytes of a camera's intensities.

@@ -64,8 +64,7 @@ class InterpolationTable {
     std::vector<float> weights_;
 };
 
-/// Returns the position of point `point` of `count` (even) in a pixel of −1/2 … 1/2: two Gauss points in each of
-/// count/2 parts.
+/// Returns the position of a point in a pixel of −1/2 … 1/2: two Gauss points in each of count/2 parts; count is even.
 inline double gauss_position(std::size_t point, std::size_t count) {
     constexpr double inner = 0.28867513459481287;  // 1/√12
     const std::size_t part = point / 2;
@@ -89,8 +88,7 @@ class KaiserPoints {
     KaiserPoints();
     static const KaiserPoints& table();
 
-    /// Weight k is Σ_p z^p coefficients()[p][k], with the position z = −1/2 … 1/2 relative to the midpoint of the two
-    /// middle samples.
+    /// Weight k is Σ_p z^p coefficients()[p][k], with z = −1/2 … 1/2 relative to the midpoint of the middle samples.
     const std::array<std::array<float, taps>, terms>& coefficients() const { return coefficients_; }
 
     std::array<float, taps> weights(float z) const {

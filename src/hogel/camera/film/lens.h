@@ -18,9 +18,8 @@ inline double cosine_of(double sine_x, double sine_y) {
     return std::sqrt(std::max(1 - sine_x * sine_x - sine_y * sine_y, 1e-12));
 }
 
-/// Returns the path of light to the point q = c + δ of the pupil from the point x in direction sine (n_x, n_y),
-/// `distance_z` in front of the lens, minus the path to the pupil's centre c and the term linear in δ: exactly |x − q|
-/// − |x − c| + n·δ.
+/// Returns the path of light to the point q = c + δ of the pupil, minus the path to its centre c and the term linear in
+/// δ: |x − q| − |x − c| + n·δ, exactly. The point x is in direction sine (n_x, n_y), `distance_z` in front of the lens.
 inline double path(double sine_x, double sine_y, double distance_z, double delta_x, double delta_y) {
     const double r = distance_z / cosine_of(sine_x, sine_y);
     const double along = sine_x * delta_x + sine_y * delta_y, square = delta_x * delta_x + delta_y * delta_y;
@@ -29,9 +28,8 @@ inline double path(double sine_x, double sine_y, double distance_z, double delta
     return change / (std::sqrt(r * r + change) + r) + along;
 }
 
-/// Returns the largest distance of the pupil's disc from the middle of its plane of frequencies. Light in direction n
-/// that enters the pupil at δ has a frequency that differs from δ/λ by at most 3δ²/4Rλ, for viewpoints up to 55° off
-/// the axis.
+/// Returns the radius of the pupil's disc in its plane of frequencies. Light in direction n that enters the pupil at δ
+/// has a frequency that differs from δ/λ by at most 3δ²/4Rλ, for viewpoints up to 55° off the axis.
 inline double frequency_radius(double pupil, double distance) { return 0.5 * pupil * (1 + 0.75 * pupil / distance); }
 
 /// Returns the distance in the pupil's plane, metres, between the frequencies of a transform over a range of sines.
@@ -69,7 +67,6 @@ class FilmLens {
 
     std::size_t nodes_x = 1, nodes_y = 1;
 
-    // Return the sine at a node.
     double node_x(std::size_t i) const {
         return sines_.shown_x.low + sines_.shown_x.span() * node_fraction(i, nodes_x);
     }

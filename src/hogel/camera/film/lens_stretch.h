@@ -19,8 +19,7 @@ struct LensStretch {
         alignas(64) float a[optics::block_lines], b[optics::block_lines], c[optics::block_lines];
     };
     Parabolas square, weight;
-    /// Phasors of each row: of the first column, of the step to the next column, and of the change of that step per
-    /// column.
+    /// Phasors of each row: of the first column, of the step to the next, and of the change of the step per column.
     struct Phasors {
         alignas(64) float re[optics::block_lines], im[optics::block_lines];
     };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of line_shares_plain(), for files that are compiled for every SIMD target. Include it after
-// hwy/highway.h.
+// Vector code of line_shares_plain(), compiled for every SIMD target. Include it after hwy/highway.h.
 #if defined(HOGEL_OPTICS_FILM_LINE_SHARES) == defined(HWY_TARGET_TOGGLE)
 #ifdef HOGEL_OPTICS_FILM_LINE_SHARES
 #undef HOGEL_OPTICS_FILM_LINE_SHARES

@@ -22,7 +22,6 @@ constexpr double node_position(std::size_t node, std::size_t nodes) {
 inline double at_node(std::size_t node, std::size_t nodes, double low, double high) {
     return std::lerp(low, high, static_cast<double>(node) / static_cast<double>(nodes - 1));
 }
-/// Returns t of a line with a value between those of the first and the last line.
 inline float line_position(double value, double low, double high) {
     return high > low ? static_cast<float>((2 * value - low - high) / (high - low)) : 0.0f;
 }

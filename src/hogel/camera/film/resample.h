@@ -26,8 +26,7 @@ void resample_lines_plain(const float* lines, std::size_t size, const TangentPos
 void resample_lines(const float* lines, std::size_t size, const TangentPositions& positions,
                     const InterpolationTable& table, std::size_t count, float* out);
 
-/// Nodes among sixteen lines, and the parameter t = −1 … 1 of each line between the nodes, see line_shares(). Used by
-/// the fast twin.
+/// Nodes of the fast twin among sixteen lines, and the parameter t = −1 … 1 of each line, see line_shares().
 struct TangentNodes {
     static constexpr std::size_t max = 5;
     std::size_t nodes = 0;

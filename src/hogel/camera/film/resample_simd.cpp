@@ -18,7 +18,7 @@ using V = hn::Vec<D>;
 
 constexpr std::size_t complex_row = 2 * optics::block_lines;
 constexpr std::size_t taps = InterpolationTable::taps;
-constexpr std::size_t values_per_pass = 64;  // values per pass of the computation of positions
+constexpr std::size_t values_per_pass = 64;  // values per pass
 constexpr double max_position = 1e9;         // a position beyond any line
 
 // First samples and table phases of a node, for a batch of values.
@@ -94,8 +94,7 @@ HWY_INLINE void resample(const float* lines, std::size_t size, const TangentPosi
                                 out);
                 continue;
             }
-            // Nodes on both sides of a sample, or at an end of the lines: shifts the weights of all nodes to a common
-            // first sample.
+            // Nodes on both sides of a sample, or at an end: shifts the weights of all nodes to a common first sample.
             float shifted[nodes][taps + 1] = {};
             const float* shifted_weights[nodes];
             const std::int32_t begin_sample = std::clamp(first, 0, end),

@@ -17,8 +17,7 @@ struct LookBlocks {
     std::size_t looks = 0, looks_per_block = 1;
 
     std::size_t blocks() const { return (looks + looks_per_block - 1) / looks_per_block; }
-    /// Returns the floats of a row of `hogels` hogels, in lines and in light. Rows of single looks are padded for whole
-    /// vectors of nodes.
+    /// Returns the floats of a row of hogels, in lines and in light; padded to whole vectors of nodes for single looks.
     std::size_t row_size(const PupilBand& band, std::size_t hogels) const {
         const std::size_t samples = band.samples(hogels);
         return looks_per_block == 1 ? padded(samples + lanes - 1) : samples * looks_per_block;

@@ -11,8 +11,7 @@ using Complex = std::complex<float>;
 
 constexpr std::size_t complex_size = 2 * stereogram::HogelWaves::lanes;  // floats of a complex number of all lanes
 
-// Maximum increase of the demodulation's frequency from hogel to hogel, in cycles per hogel, for which enough lanes
-// share weights.
+// Maximum increase of the demodulation's frequency, in cycles per hogel, for which enough lanes share weights.
 constexpr double max_bend_in_lanes = 0.15;
 
 // Keeps the pairs that contain at least one selected wave, in order.

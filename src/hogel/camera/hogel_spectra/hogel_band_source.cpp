@@ -23,8 +23,8 @@ constexpr std::size_t chunk_stride(std::size_t side, std::size_t overlap) {
     return (side + overlap - 1 + std::size_t{2} * 8 + side - 1) / side;
 }
 
-// Source of the bands of several colours of the same hogels. It renders all colours of a chunk before the next chunk,
-// so that colours may share rays.
+// Source of the bands of several colours of the same hogels. Colours share rays, because it renders them chunk by
+// chunk.
 class HogelBandSource final : public camera::PupilBandSource {
   public:
     HogelBandSource(std::vector<std::unique_ptr<HogelBandRenderer>> colours, const HogelRange& range)
@@ -65,8 +65,7 @@ class HogelBandSource final : public camera::PupilBandSource {
                                [](std::size_t sum, const auto& set) { return sum + set.size(); });
     }
 
-    // Returns all chunks in sets without overlaps, so that threads may add a set's chunks in any order: every second or
-    // third chunk along an axis.
+    // Returns sets of chunks without overlaps, which threads may add in any order: every second or third along an axis.
     std::vector<std::vector<HogelChunk>> chunk_sets() const {
         const std::size_t overlap = colours_.front()->overlap();
         const std::size_t stride_x = chunk_stride(chunk_width, overlap), stride_y = chunk_stride(chunk_height, overlap);
@@ -98,7 +97,6 @@ std::unique_ptr<PupilBandSource> make_hogel_bands(std::span<const Hogels> colour
 using SharedRays = work::LruCache<std::array<std::size_t, 4>, std::vector<LightFieldTile>>;
 constexpr double max_shared_bytes = 512.0 * (1 << 20);
 
-// Whether hogels need the same rays.
 bool have_same_rays(const Hogels& a, const Hogels& b) {
     return a.rays && b.rays && a.columns == b.columns && a.rows == b.rows && a.rays->with_depth == b.rays->with_depth &&
            std::ranges::equal(a.rays->faces, b.rays->faces);

@@ -10,12 +10,10 @@
 
 namespace hogel::camera::hogel_spectra {
 
-/// The projection of project() for sixteen hogels or looks side by side, the lanes of vectors. It transposes only its
-/// result and leaves no lane empty. Lanes do not mix, so the result of each is independent of the others. Plain and
-/// fast twins agree to rounding.
+/// The projection of project() for sixteen hogels or looks in the lanes of vectors. It transposes only its result and
+/// fills all lanes. The result of a lane does not depend on the others. Plain and fast twins agree to rounding.
 
-/// Sums a row of waves over the pairs in `columns`, which may omit some: line[function][part][lane] = Σ_column D_k
-/// waves[column][part][lane].
+/// Sums waves over the pairs in `columns`: line[function][part][lane] = Σ_column D_k waves[column][part][lane].
 void sum_row_plain(const SlepianBasis& basis, const SlepianBasis::Weights& columns, const float* waves, float* line);
 extern decltype(sum_row_plain)& sum_row;
 /// A row in binary16 to prefetch, beginning with the first in-band column.

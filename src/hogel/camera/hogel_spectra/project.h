@@ -12,13 +12,11 @@
 namespace hogel::camera::hogel_spectra {
 
 /// The factors e^{iπm(n−1)/n} e^{iπm′(n′−1)/n′} of the waves m of n columns and m′ of n′ rows. They shift the origin of
-/// a hogel's phases from its first sample to its middle. All viewpoints share the product, which has the layout of
-/// HogelWaves::waves().
+/// a hogel's phases from its first sample to its middle. The layout is that of HogelWaves::waves().
 class MiddlePhases {
   public:
     MiddlePhases(std::size_t rows, std::size_t columns);
-    /// Multiplies waves in place. The fast twin skips blocks of sixteen rows without any of `rows`. Twins agree to
-    /// rounding.
+    /// Multiplies waves in place. The fast twin skips blocks of sixteen rows without any of `rows`.
     void apply_plain(float* waves) const;
     void apply(float* waves, const stereogram::InBandRows& rows = {}) const;
 

@@ -19,8 +19,7 @@ namespace {
 // Relative widening of a pupil's band, because its width varies slightly over the hologram.
 constexpr double guard = 0.1;
 
-// Accuracy of a band. A preview takes only waves within a margin on either side of the band, in waves per hogel, and
-// fewer functions and samples.
+// Accuracy of a band: relative widening, tolerance, and out-of-band margin in waves per hogel.
 struct Accuracy {
     double sampling_guard = guard, tolerance = 6e-4, margin = std::numeric_limits<double>::infinity();
 };
@@ -37,8 +36,7 @@ struct BandWidths {
         const double node_extent = 0.5 + 3 / static_cast<double>(per_hogel);
         return pupil * (1 + guard) + bend * node_extent + 0.5 / static_cast<double>(SlepianBasis::fractions);
     }
-    // Returns enough samples for the film's interpolation to pass the pupil's light, and to represent the light of a
-    // hogel.
+    // Returns enough samples for the film's interpolation, and to represent the light of a hogel.
     std::size_t per_hogel(const Accuracy& accuracy) const {
         std::size_t count = 1;
         while (static_cast<double>(count) <

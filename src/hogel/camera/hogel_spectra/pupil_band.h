@@ -43,8 +43,7 @@ class PupilBand {
         return (hogels + overlap_ - 1) * per_hogel_ + 2 * across_->before();
     }
 
-    /// Sets a view to that of hogel (s, t). The view may be that of a neighbour, whose weights it keeps where they are
-    /// the same.
+    /// Sets a view to that of hogel (s, t). It keeps the weights of the view's previous hogel where they are the same.
     void view(const HogelLayout& hogels, std::size_t s, std::size_t t, HogelView& view) const;
 
     /// Computes the phases e^{ik|x−c|} of the demodulation, with the viewpoint c, at the samples of a part of the band.

@@ -134,8 +134,7 @@ SlepianBasis::SlepianBasis(std::size_t samples, std::size_t nodes_per_hogel, dou
     tabulate(functions, quadrature.points, quadrature.weights);
 }
 
-// The window is ½ + ½ cos 2πx and its square ⅜ + ½ cos 2πx + ⅛ cos 4πx. A cosine of the window shifts the kernel by its
-// frequency.
+// Window: ½ + ½ cos 2πx; its square: ⅜ + ½ cos 2πx + ⅛ cos 4πx. Each cosine shifts the kernel by its frequency.
 double SlepianBasis::window_at(double y) const {
     const double middle = dirichlet(y, samples_);
     if (window_ == Window::none) return middle;

@@ -37,8 +37,7 @@ struct LightRow {
     std::size_t phase_row;
 };
 
-/// Demodulates a row of light and adds it to a row of a band, at the beginning of a square (camera::PackedBand). Plain
-/// and fast twins agree to rounding.
+/// Demodulates a row of light and adds it to a row of a band, at a square's beginning. Twins agree to rounding.
 void add_demodulated_plain(const LightRow& row, std::size_t columns, math::PackedComplex* band);
 extern decltype(add_demodulated_plain)& add_demodulated;
 /// Does the same for a row of several interleaved looks.

@@ -11,14 +11,12 @@
 
 namespace hogel::camera::hogel_spectra {
 
-/// Hogels along a side of a tile. The sixteen hogels of a tile are the lanes of vectors; there are fewer at the
-/// borders.
+/// Hogels along a side of a tile, the sixteen lanes of vectors; there are fewer at the borders.
 inline constexpr std::size_t tile_side = 4;
 static_assert(tile_side * tile_side == stereogram::HogelWaves::lanes);
 
-/// Cache of the waves of all hogels for the first look, so that later viewpoints need not compute them. Waves are
-/// stored tile by tile in binary16 (relative error 5·10⁻⁴), with hogels as lanes, and phases counted from the middle of
-/// each hogel.
+/// Cache of the waves of all hogels for the first look, for later viewpoints. Waves are stored tile by tile in binary16
+/// (relative error 5·10⁻⁴), with hogels as lanes, and phases counted from the middle of each hogel.
 class WaveCache {
   public:
     /// @param amplitudes  of all hogels in row-major order, as `waves` prepares them

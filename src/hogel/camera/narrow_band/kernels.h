@@ -12,8 +12,7 @@ namespace hogel::camera::narrow_band {
 /// Inner loops of the narrow-band camera. Plain and fast twins agree to rounding.
 
 /// Low-pass and decimation down the columns of a tile: out[m·out_stride + x] = Σ_k taps[k] · phases[r] · rows[r·stride
-/// + x] with r = first + m·step + k, over the rows 0 … phases.size() − 1, for every m < count and x < width. `first`
-/// may be negative.
+/// + x] with r = first + m·step + k in 0 … phases.size() − 1, for m < count and x < width. `first` may be negative.
 struct ColumnDecimation {
     std::size_t width = 0, stride = 0, step = 1;
     std::ptrdiff_t first = 0;
@@ -32,8 +31,7 @@ struct PathPhases {
 void path_phases_plain(const PathPhases& paths, std::span<std::complex<float>> out);
 extern decltype(path_phases_plain)& path_phases;
 
-/// Low-pass and decimation along a line: out[n] = Σ_k taps[2k] · line[n·step + k]. Each tap is stored twice, for the
-/// real and the imaginary part.
+/// Low-pass and decimation along a line: out[n] = Σ_k taps[2k] · line[n·step + k]. Each tap is stored twice.
 void decimated_line_plain(const std::complex<float>* line, std::size_t step, std::span<const float> taps,
                           std::span<std::complex<float>> out);
 extern decltype(decimated_line_plain)& decimated_line;

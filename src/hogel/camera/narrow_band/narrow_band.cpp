@@ -178,7 +178,6 @@ class TilePass {
     std::size_t before_ = 0, after_ = 0;
 };
 
-// Returns the tiles of a block in row-major order.
 std::vector<Region> tiles_of(const Region& block) {
     constexpr std::size_t width = NarrowBand::tile_width, height = NarrowBand::tile_height;
     std::vector<Region> list;
@@ -189,10 +188,9 @@ std::vector<Region> tiles_of(const Region& block) {
     return list;
 }
 
-// Returns the blocks of tiles, each of which a thread reads as a whole, because on-demand synthesis computes a whole
-// hogel for any of its samples. There are enough for many threads, of similar size. With several looks a block is a
-// single tile, because a source may keep the common data of a region's looks. Blocks do not depend on the source's
-// tiles.
+// Returns the blocks of tiles that a thread reads as a whole, because on-demand synthesis computes whole hogels. There
+// are enough for many threads, of similar size. With several looks a block is a single tile, because a source may keep
+// the common data of a region's looks. Blocks do not depend on the source's tiles.
 std::vector<Region> blocks_of(const FieldSource& hologram) {
     constexpr double min_blocks = 64, max_side = 8;
     const Grid& plane = hologram.grid().plane;
@@ -228,8 +226,7 @@ class BlockReader {
         if (memory.size() < rows * block.width) memory = Array<Complex, 1>({rows * block.width});
     }
 
-    // Returns the address of the first sample of a tile, with rows stride() apart. Tiles must be read row by row, or a
-    // single one for each look.
+    // Returns a tile's first sample, with rows stride() apart. Tiles must be read row by row, or one for each look.
     const Complex* read(const Region& tile, std::size_t look) {
         if (look != look_) end_ = block_.y0;
         look_ = look;

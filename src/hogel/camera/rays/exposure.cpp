@@ -224,7 +224,7 @@ void Exposure::sample_hogels(std::size_t face, const HogelBlock& block, const Le
             const Vec3 direction = to_face(grid.face(), {U, V, 1});
             if (!(direction.z > 0) || in_earlier_face(face, {U, V, 1})) continue;
             const double forward = grid.has_frequencies() ? length(direction) : direction.z;
-            const LightFieldGrid hogel_grid = grid.of_hogel(i, j);  // with the directions of this hogel
+            const LightFieldGrid hogel_grid = grid.of_hogel(i, j);
             const lightfield::Interpolation u(hogel_grid.column(direction.x / forward), grid.directions_u);
             const lightfield::Interpolation v(hogel_grid.row(direction.y / forward), grid.directions_v);
             if (u.outside || v.outside) continue;

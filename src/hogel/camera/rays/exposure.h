@@ -68,8 +68,7 @@ class Exposure {
     /// Adds all rays of a face that cross the hologram plane in a cell with the upper left hogel in `cells`. The block
     /// holds these hogels and their right and lower neighbours.
     void add(std::size_t face, const HogelBlock& block, const HogelRange& cells);
-    /// Adds the rays of a front with its views in memory, which is faster. The front must be separable, see
-    /// is_separable().
+    /// Adds the rays of a front with its views in memory, which is faster. Requires is_separable().
     void add(const Views<float>& views, const HogelRange& hogels, const HogelRange& cells);
     void add(const Views<std::uint16_t>& views, const HogelRange& hogels, const HogelRange& cells);
 
@@ -94,8 +93,7 @@ class Exposure {
         // Returns the part of [begin, end) with the lower neighbour in [first, first + count), for an ascending run.
         std::pair<std::size_t, std::size_t> interpolated_from(std::size_t first, std::size_t count) const;
     };
-    // Positions of a lens point's rays: among columns and rows of directions for each hogel, and among hogels for each
-    // pixel.
+    // Positions of a lens point's rays: among directions for each hogel, and among hogels for each pixel.
     struct Rays {
         Run columns_of_directions, rows_of_directions, columns_of_hogels, rows_of_hogels;
     };

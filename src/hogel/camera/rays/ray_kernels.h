@@ -7,8 +7,7 @@
 
 namespace hogel::camera::rays {
 
-/// Inner loops of photographs by rays: linear interpolation at many positions. Plain and fast twins give the same
-/// bytes.
+/// Linear interpolation at many positions, for photographs by rays. Plain and fast twins give the same bytes.
 
 /// Positions between neighbouring samples of a line: index of the lower neighbour, and weight of the higher one.
 struct Places {
@@ -25,8 +24,7 @@ struct HogelRows {
     float bottom_weight = 0;
 };
 
-/// Computes out[i], the radiance of hogel i interpolated between its directions low[i] and the next, and between the
-/// two rows.
+/// Computes out[i], the radiance of hogel i, interpolated between two directions and the two rows.
 void sample_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out);
 extern decltype(sample_between_plain)& sample_between;
 
@@ -39,7 +37,7 @@ struct FourDirections {
     const Sample* bottom_right = nullptr;
 };
 
-/// Computes out[i], the radiance of hogel i interpolated between the four directions.
+/// Computes out[i], the radiance of hogel i, interpolated between the four directions.
 void sample_along_plain(const FourDirections<float>& from, std::span<const float> right_weight, float bottom_weight,
                         std::span<float> out);
 void sample_along_plain(const FourDirections<std::uint16_t>& from, std::span<const float> right_weight,

@@ -27,8 +27,7 @@ constexpr std::size_t directions_per_pass = 16;
 void store(const float* from, float* to, std::size_t n) { std::copy_n(from, n, to); }
 void store(const float* from, std::uint16_t* to, std::size_t n) { core::to_half(from, to, n); }
 
-// Transposes the hogels of one row and channel from [s][direction] to [direction][s], with `stride` samples from
-// direction to direction.
+// Transposes the hogels of one row and channel: [s][direction] to [direction][s], `stride` samples apart.
 template <class Sample>
 void transpose(View<const float, 2> hogels, Sample* to, std::size_t stride) {
     const std::size_t count = hogels.extent(0), directions = hogels.extent(1);

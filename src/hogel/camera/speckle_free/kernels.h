@@ -40,8 +40,8 @@ inline float sum_products(const float* a, const float* b, std::size_t length) {
     return sum;
 }
 
-/// Computes out(i, x) = Σ_j weights(i, j) in(j, x) for all rows j of `in`. The rows of in and out have the same length,
-/// a multiple of PsfBasis::lanes.
+/// Computes out(i, x) = Σ_j weights(i, j) in(j, x). The rows of in and out have the same length, a multiple of
+/// PsfBasis::lanes.
 void multiply_plain(View<const float, 2> weights, View<const float, 2> in, View<float, 2> out);
 extern decltype(multiply_plain)& multiply;
 

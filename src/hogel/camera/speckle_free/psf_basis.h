@@ -17,7 +17,6 @@ class PsfNodes {
     PsfNodes(std::size_t samples, double half_band);
 
     std::size_t samples() const { return samples_; }
-    /// Number of node waves, and the frequency of one.
     std::size_t count() const { return nodes_.size(); }
     double node(std::size_t q) const { return nodes_[q]; }
 

@@ -27,8 +27,7 @@ using Complex = std::complex<float>;
 // Pairs with less than this share of the strongest pair's light in the pupil are omitted.
 constexpr double min_share = 1e-4;
 
-// Support beyond a hogel and its blur in resolution cells, and the cells over which a PSF fades out before its samples
-// repeat.
+// Resolution cells of the support beyond a hogel and its blur, and of the fade-out before samples repeat.
 constexpr double cells_followed = 5, cells_fading = 8;
 
 // Returns the width of the blur of a point of the hologram, in hogels.
@@ -276,8 +275,7 @@ struct PupilSamples {
         return light;
     }
 
-    // Fills `film` with the light of a wave across and a wave down in the pupil, in the order of a transform of film's
-    // size.
+    // Fills `film` with the light of two waves, across and down, in the pupil, in the order of a transform.
     void fill(const Complex* across, const Complex* down, float scale, View<Complex, 2> film) const {
         const std::size_t side = wave.extent(0), half = side / 2, size = film.extent(0);
         for (std::size_t row = 0; row < side; ++row) {

@@ -21,8 +21,7 @@ struct HogelGrid {
 /// Returns half the width of the light of a pupil, in cycles per hogel: the maximum over the hologram.
 double half_band(const HogelGrid& hogels, Vec3 viewpoint, double pupil);
 
-/// Pairs (q_x, q_y) of node waves with a PSF: all but those in corners that send next to no light into the pupil. For
-/// each q_x the q_y are consecutive.
+/// Pairs (q_x, q_y) of node waves, with consecutive q_y, without corners that send next to no light into the pupil.
 struct NodePairs {
     struct Range {
         std::size_t begin = 0, end = 0;
@@ -36,8 +35,7 @@ struct NodePairs {
 };
 
 /// Positions of a picture's pixels among hogels along one axis, clipped to the hologram and the visible surroundings. A
-/// pixel around position u, in hogels, receives the light of hogels base − support … base + support. Its offset and
-/// width are one of a few entries.
+/// pixel around position u receives the light of hogels base − support … base + support, with one of a few entries.
 struct PixelOffsets {
     struct Entry {
         double offset = 0;  ///< u − base
@@ -91,8 +89,7 @@ class PsfTable {
     /// Returns the number of hogels in the support of a pixel, along an axis.
     std::size_t taps() const { return 2 * support_ + 1; }
     std::size_t support() const { return support_; }
-    /// [entry down][entry across][hogel down][hogel across · pair]: radiance of a pixel due to the PSF of a pair of a
-    /// hogel.
+    /// [entry down][entry across][hogel down][hogel across · pair]: radiance of a pixel due to a hogel's PSF.
     View<const float, 4> weights() const { return weights_; }
     /// [pair]: total exposure by the tail of a PSF, on pixels of the size of a hogel.
     std::span<const float> tails() const { return tails_; }

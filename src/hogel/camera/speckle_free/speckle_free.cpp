@@ -29,19 +29,16 @@ constexpr double guard = 0.05;
 // Hogels of a block that is read at once.
 constexpr std::size_t block_width = 64, block_height = 2;
 
-// Pixels of a tile that is exposed at once. Many have the same weights, because the weights of a whole table exceed the
-// cache.
+// Pixels of a tile. Many have the same weights, because the weights of a whole table exceed the cache.
 constexpr std::size_t tile_width = 512, tile_height = 8;
 
-// Maximum variation, in radians, of the focus phase at the pupil's rim over the part of the hologram that one PSF table
-// serves.
+// Maximum variation, radians, of the focus phase at the pupil's rim over the part that a PSF table serves.
 constexpr double max_change = 0.5;
 
 // Maximum number of parts of the hologram along each axis with PSF tables of their own.
 constexpr double max_parts = 9;
 
-// Measured: products in the time of reading the power of a sample of a hologram, and of adding it to the numbers of its
-// hogel for a viewpoint.
+// Measured: products in the time of reading the power of a sample, and of adding it to a viewpoint's numbers.
 constexpr double products_per_power = 35, products_per_power_and_viewpoint = 10;
 
 // A camera with its PSF tables, computed for the middles of the parts of the hologram.
@@ -52,7 +49,6 @@ struct Exposure {
     std::vector<PsfTable> psf_tables;  // [part down · parts_x + part across]
     Array<float, 2> tails;             // [hogel], including the surroundings: light of the PSF tails
 
-    // Returns the tails of a row of hogels.
     float* tails_of_row(std::size_t row) { return &tails(rows.border + row, columns.border); }
 };
 
@@ -80,15 +76,13 @@ std::size_t parts(const HogelGrid& hogels, const Camera& camera, bool across) {
         std::clamp(std::ceil(std::abs(defocus(1) - defocus(-1)) / max_change), 1.0, max_parts));
 }
 
-// Returns the weight of part `index` of `count` at a position on the hologram, 0 … 1: linear between the middles of
-// parts.
+// Returns the weight of a part at a position on the hologram, 0 … 1: linear between the middles of parts.
 float part_weight(double position, std::size_t index, std::size_t count) {
     const double part_position =
         std::clamp(position * static_cast<double>(count) - 0.5, 0.0, static_cast<double>(count) - 1);
     return static_cast<float>(std::max(0.0, 1 - std::abs(part_position - static_cast<double>(index))));
 }
 
-// Returns the offsets of a picture's columns and rows among the hogels.
 std::pair<PixelOffsets, PixelOffsets> offsets_of(const HogelGrid& hogels, const Camera& camera, const NodePairs& pairs,
                                                  double band) {
     const Grid &plane = hogels.plane, &picture = camera.picture;
@@ -159,7 +153,6 @@ class Photographer {
         }
     }
 
-    // Returns the bytes of the numbers of a row of hogels.
     double row_bytes() const {
         double pairs = 0;
         for (const SpeckleFreeViewpoint& viewpoint : viewpoints_)
@@ -284,8 +277,7 @@ class Photographer {
         }
     }
 
-    // Calls expose(row, left, right) for parts of rows of pixels, tile by tile, so that the numbers around a tile stay
-    // in the processor's cache.
+    // Calls expose(row, left, right) tile by tile, so that the numbers around a tile stay in the processor's cache.
     template <class Expose>
     static void expose_blocks(const Exposure& exposure, work::Steps& steps, const Expose& expose) {
         const std::size_t width = exposure.columns.base.size(), height = exposure.rows.base.size();
@@ -304,8 +296,7 @@ class Photographer {
         return blocks_across(exposure) * ((exposure.rows.base.size() + tile_height - 1) / tile_height);
     }
 
-    // A run of pixels around the same hogel, which read the same numbers. Pixels at the same offset from several hogels
-    // have the same weights.
+    // Pixels around a hogel read the same numbers; those at the same offset from several hogels have the same weights.
     struct PixelRun {
         std::ptrdiff_t base, left, right;
         std::size_t column, count;  // of its pixels
@@ -325,7 +316,6 @@ class Photographer {
         }
     }
 
-    // Whether the pixels of two runs have the same weights.
     static bool have_same_weights(const Exposure& exposure, const PixelRun& a, const PixelRun& b) {
         const auto entry_of_pixel = exposure.columns.entry.begin();
         return b.count == a.count && b.left - b.base == a.left - a.base && b.right - b.base == a.right - a.base &&
