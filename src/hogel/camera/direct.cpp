@@ -19,9 +19,9 @@ struct PupilPoint {
     DoubleComplex field;
 };
 
-// Returns points on rings around the pupil's centre, with radii of Gauss-Legendre quadrature. Points on a ring are as
-// far apart as the rings, with some more for smoothness along a ring. The sum over the points is exact for a wave that
-// changes by much less than a cycle from point to point. A square grid, with a jagged rim of the disc, is not.
+// Returns points on rings around the pupil's centre, with radii of Gauss-Legendre quadrature, as far apart on a ring as
+// the rings, with some more for smoothness. Their sum is exact for a wave that changes by much less than a cycle from
+// point to point, unlike that over a square grid, in which the disc has a jagged rim.
 std::vector<PupilPoint> pupil_points(const Camera& camera, std::size_t across) {
     std::vector<PupilPoint> points;
     const double half_radius = 0.25 * camera.pupil;

@@ -118,7 +118,6 @@ struct EyePhotographer::State {
         current.colours = std::move(colours);
     }
 
-    // Whether another pupil wave may be cached.
     bool may_keep(const film::PupilWave& wave) const {
         double bytes = 0;
         for (const ColourFilm& colour : current.colours)

@@ -149,7 +149,6 @@ void require_lines(const BandCamera& model) {
                     "a photograph behind a vertical diffuser needs samples, not hogel spectra");
 }
 
-// Returns the processor seconds for the films of one set of lines.
 double seconds_of_films(const FieldGrid& rows, std::span<const Camera> cameras) {
     double seconds = 0;
     for (const SharedViewpoint& viewpoint : group_by_viewpoint(cameras)) {

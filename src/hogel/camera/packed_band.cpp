@@ -8,7 +8,6 @@
 namespace hogel::camera {
 namespace {
 
-// Numbers per job that clears memory.
 constexpr std::size_t clear_chunk = std::size_t{1} << 18;
 
 }  // namespace

@@ -25,7 +25,6 @@ class PackedBand {
     static constexpr std::size_t square = side * side;
 
     PackedBand() = default;
-    /// Creates a band of zeros.
     PackedBand(std::size_t height, std::size_t width) : PackedBand(std::move(dark(1, height, width).front())) {}
     explicit PackedBand(View<const std::complex<float>, 2> band);
     PackedBand(const PackedBand&) = delete;
@@ -49,7 +48,6 @@ class PackedBand {
     math::PackedComplex* at(std::size_t row, std::size_t column) { return squares_ + offset(row, column); }
     const math::PackedComplex* at(std::size_t row, std::size_t column) const { return squares_ + offset(row, column); }
 
-    /// Whether a row has a nonzero number.
     bool is_active(std::size_t row) const;
 
     friend bool operator==(const PackedBand& a, const PackedBand& b) {

@@ -27,7 +27,6 @@ using namespace optics;
 
 namespace {
 
-// A part of a field as a source.
 class Window final : public FieldSource {
   public:
     Window(const FieldSource& field, const Region& region)

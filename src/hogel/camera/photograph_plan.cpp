@@ -22,7 +22,7 @@ namespace {
 // 0.2/m of its light is beyond m cells.
 constexpr double margin_cells = 256;
 
-// Numbers of windows to try along the longer side of the hologram.
+// Along the longer side of the hologram.
 constexpr std::size_t window_counts[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 
 // Returns the maximum of metres on the hologram per unit of the sine.
@@ -69,7 +69,6 @@ struct PassMemory {
     double fixed = 0, per_look = 0;
 };
 
-// Returns the memory of one pass over a window.
 PassMemory pass_memory(const FieldGrid& hologram, const Rectangle& shown, std::span<const Camera> cameras,
                        const std::vector<SharedViewpoint>& viewpoints) {
     PassMemory bytes;
@@ -79,7 +78,6 @@ PassMemory pass_memory(const FieldGrid& hologram, const Rectangle& shown, std::s
         const film::FilmSize film(band, hologram, film_area(hologram.plane, viewpoint.pictures, shown), viewpoint.pupil,
                                   viewpoint.blur);
         bytes.per_look += 8.0 * static_cast<double>(band.plane.samples());
-        // Tiles in flight.
         const double tile = narrow_band::NarrowBand::tile_width / static_cast<double>(band.factor) +
                             2 * narrow_band::NarrowBand::margin;
         bytes.per_look += 8.0 * static_cast<double>(work::default_in_flight()) * tile * tile;
@@ -189,7 +187,6 @@ std::size_t PhotographPlan::looks_at_once(double memory, std::size_t looks, doub
     // At most the memory that core::FreedBlocks keeps. The system would clear more each time, a second per gigabyte.
     const double spare = std::clamp(memory - bytes, 0.0, 1024.0 * 1024 * 1024);
     const double max_looks = 1 + std::floor(spare / (bytes_per_look * share)), total = static_cast<double>(looks);
-    // Passes of equal size.
     return static_cast<std::size_t>(std::ceil(total / std::max(1.0, std::ceil(total / max_looks))));
 }
 

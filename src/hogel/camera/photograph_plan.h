@@ -38,7 +38,6 @@ struct PhotographPlan {
 Rectangle illuminated_area(const FieldGrid& hologram, const Vec3& viewpoint, double pupil, double blur,
                            double diffraction = std::numeric_limits<double>::infinity());
 
-/// Returns the bytes of one look of a viewpoint's narrow band.
 double narrow_band_bytes(const FieldGrid& hologram, const Vec3& viewpoint, double pupil);
 
 /// Throws Error(usage) for a pupil that resolves fewer than `cells` points side by side on the hologram. With fewer

@@ -31,7 +31,7 @@ using namespace optics;
 
 namespace {
 
-// Factor by which the pupil is widened to select directions.
+// Relative widening of the pupil to select directions.
 constexpr double edge_margin = 1.1;
 
 // Returns the width over which directions beyond the widened pupil fade out: twice the width of the Fresnel fringes of
@@ -375,7 +375,6 @@ void share_rows(Communicator& communicator, const Camera& camera, Value* picture
                              [&](std::size_t rank) { return rows_of(rank, camera, &communicator); });
 }
 
-// Calls visit(i, wave) with the wave of each camera's picture.
 template <class Visit>
 void focus_all(const PlaneWaveJob& job, std::span<const Camera> cameras, const Progress& progress, const Visit& visit) {
     const std::vector<SharedViewpoint> viewpoints = group_by_viewpoint(cameras);

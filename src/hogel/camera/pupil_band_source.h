@@ -21,7 +21,7 @@ struct Viewpoint {
     bool preview = false;
 };
 
-/// Pupil bands: [viewpoint][look].
+/// Indexed by [viewpoint][look].
 using PackedBands = std::vector<std::vector<PackedBand>>;
 
 /// Source of the pupil bands of a part of a hologram, for several viewpoints.

@@ -167,7 +167,6 @@ class Development {
         double low = 0, high = 0;
     };
 
-    // Computes the weighted sums of a range of lines.
     static void sum(const float* samples, std::span<const double, optics::block_lines> values, const Lines& lines,
                     const MergedWeights& weights, float* out) {
         alignas(64) float t[optics::block_lines] = {}, sums[optics::block_lines];

@@ -29,7 +29,6 @@ std::size_t count_frequencies(std::ptrdiff_t reach) { return static_cast<std::si
 
 constexpr std::size_t padded(std::size_t lines) { return optics::blocks_of(lines) * optics::block_lines; }
 
-// Floats of a row of sixteen complex numbers.
 constexpr std::size_t complex_row = math::SplitFft::row;
 static_assert(complex_row == 2 * optics::block_lines && optics::block_lines == PackedBand::side);
 
@@ -83,7 +82,6 @@ FilmSize::FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram,
                   samples * pupil / wavelength);
     y = film_axis(sines.first_y, sines.period_y(), sines.shown_y, count_frequencies(reach_y),
                   samples * pupil / wavelength);
-    // The kernel of the resampling extends a few samples beyond the band.
     Grid margin_plane = band.plane;
     margin_plane.width += 2 * InterpolationTable::taps;
     margin_plane.height += 2 * InterpolationTable::taps;

@@ -33,7 +33,6 @@ struct FilmAxis {
     double low = 0, step = 0;  ///< sine of the first kept sample, and between samples
 };
 
-/// Dimensions of a viewpoint's film.
 struct FilmSize {
     SineGrid sines;                           ///< at which the band is resampled
     std::ptrdiff_t reach_x = 0, reach_y = 0;  ///< radius of the pupil, in steps of the transform's frequencies
@@ -48,11 +47,9 @@ struct FilmSize {
     /// Return the bytes of a pupil wave, and the peak of Film::pupil_wave() and expose() beside their results.
     double pupil_bytes() const;
     double work_bytes() const;
-    /// Returns the bytes of a camera's intensities.
     double intensity_bytes() const;
 };
 
-/// The wave over a pupil, see Film::pupil_wave().
 using PupilWave = Array<math::PackedComplex, 2>;
 
 /// Film of a viewpoint, from its narrow band to photographs (docs/notation.md section 4). The band is resampled to

@@ -8,7 +8,6 @@
 namespace hogel::camera::film {
 namespace {
 
-// Returns the weights at a position z from the middle.
 template <std::size_t taps>
 std::array<double, taps> kaiser_weights(double z) {
     constexpr double beta = 5, half_width = 0.5 * taps;

@@ -35,7 +35,6 @@ inline double frequency_radius(double pupil, double distance) { return 0.5 * pup
 /// Returns the distance in the pupil's plane, metres, between the frequencies of a transform over a range of sines.
 inline double pupil_step(double wavelength, double period) { return wavelength / period; }
 
-/// Returns the window of a camera's PSF on a film.
 inline optics::SpreadWindow spread_window(const SineGrid& sines, double wavelength, double pupil, double blur) {
     optics::SpreadWindow window(sines.shown_x.span(), sines.shown_y.span(), blur, wavelength / pupil);
     window.fit(sines.room() - 0.5 * blur);

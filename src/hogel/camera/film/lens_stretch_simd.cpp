@@ -12,7 +12,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, optics::block_lines>;
 using V = hn::Vec<D>;
 
-// A vector of the sixteen parabolas.
 struct Parabola {
     V a, b, c;
 
@@ -21,7 +20,6 @@ struct Parabola {
     HWY_INLINE V at(V t) const { return hn::MulAdd(hn::MulAdd(c, t, b), t, a); }
 };
 
-// A vector of the sixteen phasors.
 struct Phasor {
     V re, im;
 

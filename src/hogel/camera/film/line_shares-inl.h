@@ -39,7 +39,6 @@ HWY_INLINE void line_shares(D d, V t, V (&shares)[nodes]) {
     }
 }
 
-// Calls use(std::integral_constant<nodes>) for 2, 3 or 5 nodes.
 template <class Use>
 HWY_INLINE void with_nodes(std::size_t nodes, const Use& use) {
     if (nodes == 2)

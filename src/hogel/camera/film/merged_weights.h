@@ -25,7 +25,6 @@ class MergedWeights {
     std::size_t first() const { return first_; }  ///< the first sample with a weight
     std::size_t taps() const { return taps_; }    ///< number of samples with weights
     std::size_t nodes() const { return nodes_; }
-    /// Returns the weights at a node, one for each tap.
     const float* weights(std::size_t node) const { return weights_.data() + node * stride(); }
 
   private:

@@ -21,7 +21,6 @@ double hogels_of(const HogelLayout& layout) {
     return static_cast<double>((plane.width / layout.across()) * (plane.height / layout.down()));
 }
 
-// Samples of a look in the bands of all viewpoints.
 double samples_of_bands(const HogelLayout& layout, std::span<const SharedViewpoint> viewpoints,
                         std::span<const Camera> cameras) {
     double samples = 0;

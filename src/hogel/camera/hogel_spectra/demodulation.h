@@ -15,7 +15,6 @@ struct SampleLine {
     double offset = 0;
 };
 
-/// Returns the position of one of `lanes` samples.
 constexpr double sample_position(std::size_t sample) {
     return static_cast<double>(sample) - 0.5 * static_cast<double>(lanes - 1);
 }

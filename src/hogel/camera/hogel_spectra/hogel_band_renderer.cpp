@@ -130,7 +130,6 @@ void HogelBandRenderer::prepare(const HogelRange& tiles, Scratch& scratch) const
     for (std::size_t h = 0; h < tiles.hogels(); ++h) scratch.moduli[h] = &prepared(h, 0);
 }
 
-// Assigns the hogels of `rows` rows, from row `first` on, to lines.
 void HogelBandRenderer::assign_lines(const HogelRange& tiles, std::size_t first, std::size_t rows,
                                      Scratch& scratch) const {
     scratch.band_lines.resize(bands_.size());

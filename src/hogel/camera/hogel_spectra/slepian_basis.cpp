@@ -16,7 +16,7 @@ using math::Quadrature;
 
 using std::numbers::pi;
 
-// Maximum number of nodes beyond either end of a hogel.
+// Maximum, beyond either end of a hogel.
 constexpr std::size_t max_beyond = 8;
 
 // Least-squares fit of the real samples a(b) such that Σ_b a(b) cos 2πκx_b (or sin) is closest to f(κ) for |κ| ≤ κ_m.

@@ -78,14 +78,13 @@ class SlepianBasis {
     };
     static constexpr std::size_t fractions = 2;
     Weights weights(double frequency) const;
-    /// Returns the frequency of the table; equal rounded frequencies have equal weights.
+    /// Equal rounded frequencies have equal weights.
     static double rounded(double frequency) { return std::floor(frequency * fractions + 0.5) / fractions; }
 
     /// Returns the relative error of S over |κ| ≤ κ_m, root mean square over waves of all frequencies.
     double error() const { return error_; }
 
   private:
-    // Transforms of the window and of its square.
     double window_at(double y) const;
     double square_at(double y) const;
     void tabulate(View<const double, 2> functions, std::span<const double> points,

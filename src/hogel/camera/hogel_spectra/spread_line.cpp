@@ -7,7 +7,6 @@ using Complex = std::complex<float>;
 
 namespace {
 
-// Demodulates light and adds it at a column.
 void add_to(math::PackedComplex* band, std::size_t x, Complex light, const LightRow& row) {
     math::PackedComplex& sum = band[x / lanes * camera::PackedBand::square + x % lanes];
     sum = math::pack(math::unpacked(sum) + light * Complex(row.phases[x], row.phases[row.phase_row + x]));

@@ -199,7 +199,6 @@ std::vector<Region> blocks_of(const FieldSource& hologram) {
     const double max_block_side = hologram.looks() > 1 ? 1.0 : max_side;
     const auto side = static_cast<std::size_t>(
         std::clamp(std::floor(std::sqrt(static_cast<double>(across * down) / min_blocks)), 1.0, max_block_side));
-    // Returns the first sample of block i.
     const auto begin = [&](std::size_t i, std::size_t tiles, std::size_t tile, std::size_t end) {
         const std::size_t blocks = (tiles + side - 1) / side;
         return std::min(end, i * tiles / blocks * tile);
@@ -295,7 +294,6 @@ NarrowBand::NarrowBand(const FieldGrid& hologram, Vec3 viewpoint, double pupil)
         // Normalises the sampled kernel, so that constants are unchanged.
         for (float& tap : taps) tap /= static_cast<float>(sum);
     }
-    // The first sample must be at hologram_index(0).
     plane.center_x += full.x(hologram_index(0)) - plane.x(0);
     plane.center_y += full.y(hologram_index(0)) - plane.y(0);
 }
@@ -312,7 +310,6 @@ std::ptrdiff_t NarrowBand::first_tap(std::size_t index) const {
 
 namespace {
 
-// Returns groups of bands that share the pass down the columns.
 std::vector<std::vector<std::size_t>> groups_of(std::span<const NarrowBand> bands, const Grid& plane) {
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t index = 0; index < bands.size(); ++index) {

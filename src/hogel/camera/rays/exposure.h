@@ -43,13 +43,11 @@ struct Views {
 /// Whether columns of directions depend only on columns of hogels, and rows on rows. False for directions in sines.
 inline bool is_separable(const LightFieldGrid& front) { return !front.has_frequencies(); }
 
-/// Implementation that samples the hogels.
 enum class Implementation {
     fast,   ///< vector code, where columns and rows are separable
     plain,  ///< ray by ray
 };
 
-/// Returns the bytes of the prepared rays of one lens point.
 std::size_t bytes_of_rays(const LightFieldGrid& grid, const Camera& camera);
 
 /// Maximum bytes of cached rays, of all points of all lenses.
@@ -72,7 +70,6 @@ class Exposure {
     void add(const Views<float>& views, const HogelRange& hogels, const HogelRange& cells);
     void add(const Views<std::uint16_t>& views, const HogelRange& hogels, const HogelRange& cells);
 
-    /// Sets the image to the mean over the lens points.
     void develop(Image& image) const;
 
     /// A point of the lens, metres from its centre, and the offset of its ray within each pixel, −½..½.

@@ -25,8 +25,7 @@ struct FaceBlock {
     Block block;
 };
 
-// Exposes films to the rays of blocks of hogels, in order. Several blocks are read in parallel, because reading may
-// involve rendering. Hogels in memory are not copied.
+// Exposes films to blocks of hogels, in order. Reads several blocks in parallel, because reading may render.
 void expose(std::span<const LightField::Source> faces, std::span<const FaceBlock> list, std::size_t blocks_at_once,
             std::span<camera::rays::Exposure> exposures, const Progress& progress) {
     for (camera::rays::Exposure& exposure : exposures)

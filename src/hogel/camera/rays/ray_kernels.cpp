@@ -6,7 +6,7 @@
 
 namespace hogel::camera::rays {
 
-void sample_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out) {
+void sample_between_plain(const HogelRows& hogels, const LinePositions& directions, std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const auto at = i * hogels.hogel + static_cast<std::size_t>(directions.low[i]);
         const float* top = hogels.top + at;
@@ -41,7 +41,8 @@ void mix_lines_plain(std::span<const float> a, std::span<const float> b, float w
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = lightfield::mix(a[i], b[i], weight);
 }
 
-void add_between_plain(std::span<const float> line, std::size_t next, const Places& positions, std::span<float> out) {
+void add_between_plain(std::span<const float> line, std::size_t next, const LinePositions& positions,
+                       std::span<float> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const auto low = static_cast<std::size_t>(positions.low[i]);
         out[i] += lightfield::mix(line[low], line[low + next], positions.high_weight[i]);

@@ -10,7 +10,7 @@ namespace hogel::camera::rays {
 /// Linear interpolation at many positions, for photographs by rays. Plain and fast twins give the same bytes.
 
 /// Positions between neighbouring samples of a line: index of the lower neighbour, and weight of the higher one.
-struct Places {
+struct LinePositions {
     std::span<const std::int32_t> low;
     std::span<const float> high_weight;
 };
@@ -25,7 +25,7 @@ struct HogelRows {
 };
 
 /// Computes out[i], the radiance of hogel i, interpolated between two directions and the two rows.
-void sample_between_plain(const HogelRows& hogels, const Places& directions, std::span<float> out);
+void sample_between_plain(const HogelRows& hogels, const LinePositions& directions, std::span<float> out);
 extern decltype(sample_between_plain)& sample_between;
 
 /// Adjacent samples of neighbouring hogels in four neighbouring directions; floats or halves (core/half.h).
@@ -52,7 +52,8 @@ void mix_lines_plain(std::span<const float> a, std::span<const float> b, float w
 extern decltype(mix_lines_plain)& mix_lines;
 
 /// Computes out[i] += the value of `line` interpolated between low[i] and low[i] + next.
-void add_between_plain(std::span<const float> line, std::size_t next, const Places& positions, std::span<float> out);
+void add_between_plain(std::span<const float> line, std::size_t next, const LinePositions& positions,
+                       std::span<float> out);
 extern decltype(add_between_plain)& add_between;
 
 }  // namespace hogel::camera::rays

@@ -14,11 +14,11 @@ using Value = hn::Vec<Floats>;
 // Multiplies and adds separately, so that the bytes are those of the plain twins.
 HWY_INLINE Value mix(Value a, Value b, Value weight) { return hn::Add(a, hn::Mul(hn::Sub(b, a), weight)); }
 
-HWY_INLINE Places remainder_of(const Places& positions, std::size_t done) {
+HWY_INLINE LinePositions remainder_of(const LinePositions& positions, std::size_t done) {
     return {positions.low.subspan(done), positions.high_weight.subspan(done)};
 }
 
-void SampleBetween(const HogelRows& hogels, const Places& directions, std::span<float> out) {
+void SampleBetween(const HogelRows& hogels, const LinePositions& directions, std::span<float> out) {
     const Floats df;
     const Indices di;
     const std::size_t lanes = hn::Lanes(df);
@@ -92,7 +92,7 @@ void MixLines(std::span<const float> a, std::span<const float> b, float weight, 
     mix_lines_plain(a.subspan(i), b.subspan(i), weight, out.subspan(i));
 }
 
-void AddBetween(std::span<const float> line, std::size_t next, const Places& positions, std::span<float> out) {
+void AddBetween(std::span<const float> line, std::size_t next, const LinePositions& positions, std::span<float> out) {
     const Floats df;
     const Indices di;
     const std::size_t lanes = hn::Lanes(df);

@@ -40,7 +40,7 @@ void transpose(View<const float, 2> hogels, Sample* to, std::size_t stride) {
     }
 }
 
-// Returns all samples of a light field, [v][u][c][t][s].
+// Returns [v][u][c][t][s].
 template <class Sample>
 std::vector<Sample, CacheLineAllocator<Sample>> views_of(const LightFieldSource& source, const Progress& progress) {
     const LightFieldGrid& grid = source.grid();

@@ -33,7 +33,6 @@ constexpr std::size_t max_a_per_pass(std::size_t b) { return b == 1 ? 8 : max_su
 /// arrays a.
 void sum_products_plain(const Lines& lines, float* sums);
 void sum_products(const Lines& lines, float* sums);
-/// Returns Σ a b of two arrays.
 inline float sum_products(const float* a, const float* b, std::size_t length) {
     float sum = 0;
     sum_products({{&a, 1}, {&b, 1}, 0, 0, 1, length}, &sum);

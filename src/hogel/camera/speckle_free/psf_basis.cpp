@@ -35,7 +35,6 @@ std::vector<double> choose_nodes(std::size_t samples, double half_band) {
     return nodes;
 }
 
-// Solves equations with a symmetric matrix by Cholesky decomposition.
 class Cholesky {
   public:
     explicit Cholesky(Array<double, 2> matrix) : lower_(std::move(matrix)) {

@@ -23,10 +23,8 @@
 namespace hogel::camera::speckle_free {
 namespace {
 
-// Relative widening of a pupil's band for the choice of node waves.
 constexpr double guard = 0.05;
 
-// Hogels of a block that is read at once.
 constexpr std::size_t block_width = 64, block_height = 2;
 
 // Pixels of a tile. Many have the same weights, because the weights of a whole table exceed the cache.
@@ -130,7 +128,6 @@ double products_of_reading(const HogelGrid& hogels, std::size_t viewpoints) {
            (products_per_power + static_cast<double>(viewpoints) * products_per_power_and_viewpoint);
 }
 
-// Returns the number of products of hogels' numbers with PSFs.
 double products_of_pixels(const NodePairs& pairs, std::size_t support, const Camera& camera) {
     const auto taps = static_cast<double>(2 * support + 1);
     return static_cast<double>(pairs.padded_count()) * taps * taps * static_cast<double>(camera.picture.samples());
@@ -187,7 +184,6 @@ class Photographer {
                 });
     }
 
-    // Adds the light of the PSF tails.
     void add_tails(std::span<Image> pictures) const {
         for (const SpeckleFreeViewpoint& viewpoint : viewpoints_)
             for (const Exposure& exposure : viewpoint.exposures) {
@@ -216,7 +212,6 @@ class Photographer {
         return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(exposure.rows.base[row], 0, last));
     }
 
-    // Returns the share of reading hogels in the time of an exposure.
     double reading_share() const {
         const double reading = products_of_reading(hogels_, viewpoints_.size());
         double exposing = 0;

@@ -19,7 +19,6 @@ namespace hogel::camera::speckle_free {
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const SpeckleFreeCamera& model, std::span<Image> pictures, const Progress& progress);
 
-/// Returns the resources of photograph().
 Plan plan(const FieldGrid& hologram, const WavePowers::Counts& counts, std::span<const Camera> cameras,
           const SpeckleFreeCamera& model);
 

@@ -14,7 +14,6 @@ using Complex = std::complex<float>;
 
 constexpr std::size_t max_side = 1024;
 
-// Returns sums of bins of `bin` × `bin` elements.
 Array<float, 2> in_bins(View<const float, 2> light, std::size_t bin) {
     Array<float, 2> sums({(light.extent(0) + bin - 1) / bin, (light.extent(1) + bin - 1) / bin});
     for (std::size_t y = 0; y < light.extent(0); ++y)
