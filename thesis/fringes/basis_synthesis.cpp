@@ -26,13 +26,13 @@ using Complex = std::complex<float>;
 
 constexpr double max_bytes = 4.0 * (std::size_t{1} << 30);
 
-// A hogel is a sum of fringes, one for each basis function of a transform of the directions of a face, weighted with
-// the coefficients of its amplitudes √L. With horizontal parallax only, fringes are those of a line, and the lines of a
-// hogel differ in a phase. Sources: [K] (3.24) and 4.2; Lucente 1994 for the piecewise constant basis, whose
-// coefficients are the samples.
+// A hogel is a sum of fringes, one per basis function of a transform of the directions of a face, weighted with the
+// coefficients of its amplitudes √L. With horizontal parallax only, a fringe is one line, and the lines of a hogel
+// differ in a phase. Sources: [K] (3.24) and 4.2; Lucente 1994 for the piecewise constant basis, whose coefficients are
+// the samples.
 //
-// Fringes are linear in the amplitudes, so the waves of a hogel are those of the amplitudes that its coefficients stand
-// for, which are prepared for waves.
+// Fringes are linear in the amplitudes. Therefore the waves of a hogel are computed from its amplitudes, the inverse
+// transform of its coefficients.
 class BasisSynthesis final : public HogelSynthesis {
   public:
     BasisSynthesis(std::span<const LightFieldGrid> faces, FrequencyGrid frequencies, std::size_t lines,
@@ -85,14 +85,14 @@ class BasisSynthesis final : public HogelSynthesis {
             for (std::size_t hogel = 0; hogel < prepared.extent(0); ++hogel) drop_small(prepared[hogel].elements());
     }
 
-    void synthesise(std::span<const float> coefficients, const HogelKey& place, View<Complex, 2> hogel) const override {
+    void synthesise(std::span<const float> coefficients, const HogelKey& key, View<Complex, 2> hogel) const override {
         std::vector<WeightedFringe> sum;
         for (std::size_t i = 0; i < coefficients.size(); ++i)
-            if (coefficients[i] != 0) sum.push_back({fringes_[place.look][i], coefficients[i]});
+            if (coefficients[i] != 0) sum.push_back({fringes_[key.look][i], coefficients[i]});
         if (lines_ == 0) return sum_fringes(sum, hogel.elements());
         const std::span<Complex> line(hogel.data(), hogel.extent(1));
         sum_fringes(sum, line);
-        write_lines(options_, place, lines_, line, hogel.data(), hogel.extent(1));
+        write_lines(options_, key, lines_, line, hogel.data(), hogel.extent(1));
     }
 
     const HogelWaves* hogel_waves() const override { return &waves_; }
@@ -106,7 +106,7 @@ class BasisSynthesis final : public HogelSynthesis {
         std::size_t prepared_size() const override { return fourier_.prepared_size(); }
         void prepare(View<const float, 2> values, View<const float, 2> depths, View<float, 2> prepared) const override {
             Array<float, 2> amplitudes({values.extent(0), basis_.prepared_size()});
-            // All coefficients of amplitudes stand for these amplitudes.
+            // The complete coefficients of amplitudes yield these amplitudes.
             if (basis_.values_ == RayValues::radiance && basis_.tolerance_ == 0) {
                 roots_of(values, amplitudes);
             } else {
@@ -115,9 +115,9 @@ class BasisSynthesis final : public HogelSynthesis {
             }
             fourier_.prepare_roots(amplitudes, prepared);
         }
-        void waves(std::span<const float> prepared, const HogelKey& place, const InBandRows& rows,
+        void waves(std::span<const float> prepared, const HogelKey& key, const InBandRows& rows,
                    float* waves) const override {
-            fourier_.waves(prepared, place, rows, waves);
+            fourier_.waves(prepared, key, rows, waves);
         }
 
       private:
@@ -125,19 +125,19 @@ class BasisSynthesis final : public HogelSynthesis {
         FourierSynthesis fourier_;
     };
 
-    // The transform of the directions of a face, without the hogels, for some hogels at once.
+    // Returns the transform over the directions of a face, not over the hogels, for an array of some hogels.
     static wavelets::Pyramid pyramid(const LightFieldGrid& face, std::size_t hogels) {
         return wavelets::Pyramid::separate({hogels, face.directions_v, face.directions_u}, {{1, 2}});
     }
 
-    // Transforms the amplitudes of some hogels, face by face, or coefficients into amplitudes.
+    // Transforms the amplitudes of some hogels into coefficients, face by face, or the reverse.
     void transform_faces(View<float, 2> values, bool forward = true) const {
         const std::size_t hogels = values.extent(0);
-        const auto apply = [&](const LightFieldGrid& face, std::span<float> own) {
+        const auto apply = [&](const LightFieldGrid& face, std::span<float> face_values) {
             if (forward)
-                transform_.forward(pyramid(face, hogels), own);
+                transform_.forward(pyramid(face, hogels), face_values);
             else
-                transform_.inverse(pyramid(face, hogels), own);
+                transform_.inverse(pyramid(face, hogels), face_values);
         };
         if (faces_.size() == 1) return apply(faces_.front(), values.elements());
         std::size_t first = 0;
@@ -151,7 +151,7 @@ class BasisSynthesis final : public HogelSynthesis {
         }
     }
 
-    // Replaces the coefficient `number` of a hogel by the amplitudes of the face that it belongs to.
+    // Replaces a face's coefficients, including coefficient `number` of a hogel, by the face's amplitudes.
     void invert_face_of(std::size_t number, std::span<float> rays) const {
         std::size_t first = 0;
         for (const LightFieldGrid& face : faces_) {
@@ -170,9 +170,8 @@ class BasisSynthesis final : public HogelSynthesis {
         fft_.backward(fringe);
     }
 
-    // Sets the smallest coefficients to zero, as many as together carry the share `tolerance` of the amplitude (exactly
-    // so if the fringes were orthogonal). They are found by a histogram in half octaves of energy instead of by
-    // sorting.
+    // Sets the smallest coefficients to zero, up to a fraction `tolerance` of the amplitude in total (exact for
+    // orthogonal fringes). Finds them by a histogram in half octaves of energy instead of by sorting.
     void drop_small(std::span<float> coefficients) const {
         const auto half_octave = [](float energy) { return std::bit_cast<std::uint32_t>(energy) >> 22; };
         const auto energy_of = [&](std::size_t i) {
@@ -202,7 +201,7 @@ class BasisSynthesis final : public HogelSynthesis {
     DirectionPhases phases_;
     Waves waves_;
     std::deque<FringeTable> fringes_;  // one per look
-    std::vector<float> norms_;         // of the fringes; empty if no coefficients are dropped
+    std::vector<float> norms_;         // norms of the fringes; empty if no coefficients are dropped
 };
 
 }  // namespace

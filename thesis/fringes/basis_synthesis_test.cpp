@@ -86,7 +86,7 @@ double varied(Vec3 hogel, Vec3 direction) {
     return std::pow(0.5 + 0.2 * wave, 2);
 }
 
-// The coefficients of every face, in place of its radiances.
+// Returns the coefficients of every face, in place of its radiances.
 LightField coefficients_of(const LightField& light_field, std::string_view transform) {
     std::vector<LightField::Source> faces;
     for (const LightField::Source& face : light_field.faces()) {
@@ -109,7 +109,7 @@ struct Sides {
     std::optional<double> line_pitch;
 };
 
-// A hemicube, one whose sides shrink, lines of a front, and of a hemisquare.
+// Returns a hemicube, one whose sides shrink, lines of a front, and of a hemisquare.
 std::vector<Sides> beyond_a_front() {
     const LightFieldGrid square{3, 2, 18_um, 12, 12, Perspective{1, 1}, 1};
     const LightFieldGrid row{3, 2, 48_um, 20, 1, Perspective{0.14, 0.01}, 1};

@@ -12,10 +12,10 @@ void sum_fringes_plain(std::span<const WeightedFringe> fringes, std::span<std::c
 }
 
 FringeTable::FringeTable(std::size_t fringes, std::size_t samples, Make make)
-    : samples_(samples), make_(std::move(make)), fringes_(fringes), made_(fringes) {}
+    : samples_(samples), make_(std::move(make)), fringes_(fringes), computed_(fringes) {}
 
 const std::complex<float>* FringeTable::operator[](std::size_t number) const {
-    std::call_once(made_[number], [&] {
+    std::call_once(computed_[number], [&] {
         Array<std::complex<float>, 1> fringe({samples_});
         make_(number, fringe.elements());
         fringes_[number] = std::move(fringe);

@@ -11,22 +11,22 @@
 
 namespace hogel::fringes {
 
-/// A weighted sum of fringes: [K] (3.24).
+/// Term of a weighted sum of fringes: [K] (3.24).
 struct WeightedFringe {
     const std::complex<float>* fringe;
     float weight;
 };
 
-/// sum[i] = Σ weight · fringe[i] over all fringes. Plain and fast twins agree to rounding.
+/// Computes sum[i] = Σ weight · fringe[i] over all fringes. Plain and fast twins agree to rounding.
 void sum_fringes_plain(std::span<const WeightedFringe> fringes, std::span<std::complex<float>> sum);
 extern decltype(sum_fringes_plain)& sum_fringes;
 
-/// A thread-safe table of basis fringes, each computed when it is first needed.
+/// Thread-safe table of basis fringes, each computed on first use.
 class FringeTable {
   public:
     using Make = std::function<void(std::size_t number, std::span<std::complex<float>> fringe)>;
 
-    /// @param samples  samples of a fringe
+    /// @param samples  number of samples of a fringe
     FringeTable(std::size_t fringes, std::size_t samples, Make make);
     const std::complex<float>* operator[](std::size_t number) const;
 
@@ -34,7 +34,7 @@ class FringeTable {
     std::size_t samples_;
     Make make_;
     mutable std::vector<Array<std::complex<float>, 1>> fringes_;
-    mutable std::vector<std::once_flag> made_;
+    mutable std::vector<std::once_flag> computed_;
 };
 
 }  // namespace hogel::fringes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twin of sum_fringes_plain, compiled for every SIMD target and chosen when first called.
+// Vector twin of sum_fringes_plain, compiled for every SIMD target and selected at the first call.
 #include "hogel/core/simd_targets-inl.h"
 #include "thesis/fringes/fringe_table.h"
 

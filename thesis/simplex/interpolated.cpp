@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// [K] chapter 5 to the letter: depth and shading are interpolated in four dimensions between the corners of the
-// projected volume, where `simplex` computes both from the ray and the triangle.
+// [K] chapter 5, unmodified: depth and shading are interpolated in four dimensions between the corners of the projected
+// volume; `simplex` computes both from the ray and the triangle.
 #include "thesis/simplex/interpolated.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using namespace render;
 
 namespace {
 
-// The coordinates of a ProjectedPoint, then values times Q: radiance without texture, weights of the second and third
+// Coordinates of a ProjectedPoint, then values times Q: radiance without texture, weights of the second and third
 // vertex. [K] also interpolates Z = (ζ − ζ_n)/ζ = 1 − ζ_n Q, which orders depths as Q does.
 namespace value {
 enum : std::size_t { red = 5, green, blue, weight1, weight2, count };
@@ -32,22 +32,22 @@ enum : std::size_t { red = 5, green, blue, weight1, weight2, count };
 using ShadedPoint = std::array<double, value::count>;
 using ShadedSlice = std::array<ShadedPoint, 3>;
 
-// An element of the depth and colour buffers of [K] fig. 5.21.
+// Element of the depth and colour buffers of [K] fig. 5.21.
 struct BufferedSample {
     float depth = std::numeric_limits<float>::infinity();
     Rgb radiance;
 };
 
-// The hogels of a region that are to be rendered, relative to its first.
+// Hogels of a region to be rendered, relative to its first hogel.
 struct Part {
     Span rows, columns;
 };
 
-// The whole numbers i with low <= i < high of a span, so that slices that share an edge share no sample.
-Span half_open(double low, double high, const Span& all) {
+// Returns the whole numbers i with low <= i < high of a span, so that slices that share an edge share no sample.
+Span half_open(double low, double high, const Span& range) {
     const auto bound = [&](double x) {
         return static_cast<std::size_t>(
-            std::clamp(std::ceil(x), static_cast<double>(all.first), static_cast<double>(all.end)));
+            std::clamp(std::ceil(x), static_cast<double>(range.first), static_cast<double>(range.end)));
     };
     const Span span{bound(low), bound(high)};
     return span.first < span.end ? span : Span{};
@@ -72,7 +72,7 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         return {0, 0, std::min(region_, grid_.hogels_s), std::min(region_, grid_.hogels_t)};
     }
     void set_scene(std::shared_ptr<const ShadedScene> scene) override {
-        near_plane(*scene, "simplex");  // throws unless all of it is behind the hologram
+        near_plane(*scene, "simplex");  // throws unless the scene is entirely behind the hologram
         scene_ = std::move(scene);
         triangles_ = triangles_with_area(*scene_, std::move(triangles_));
     }
@@ -97,15 +97,15 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         Array<BufferedSample, 4> buffer(
             {grid_.directions_v, grid_.directions_u, part.rows.size(), part.columns.size()});
         for (BufferedSample& sample : buffer.elements()) sample.radiance = scene_->background;
-        SeenDirections seen(grid_);
+        SeenDirections visible(grid_);
         Visits visits;
         for (const std::uint32_t index : triangles_) {
             core::throw_if_stopped();
             const DeepTriangle triangle = deep_triangle(*scene_, index);
-            if (!seen.find(triangle, region)) continue;
+            if (!visible.find(triangle, region)) continue;
             const RegionSides sides = split_at_back_face(triangle, grid_, region);
-            draw(index, triangle, sides.front, region, part, seen, buffer, visits);
-            if (!scene_->fronts_only) draw(index, triangle, sides.back, region, part, seen, buffer, visits);
+            draw(index, triangle, sides.front, region, part, visible, buffer, visits);
+            if (!scene_->fronts_only) draw(index, triangle, sides.back, region, part, visible, buffer, visits);
         }
         add_visits(visits);
         for_each_ray(grid_, part.rows, part.columns, [&](std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
@@ -114,7 +114,7 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         });
     }
 
-    // The corners of a triangle seen from a point of the camera plane, with the radiance that they send there.
+    // Returns the corners of a triangle seen from a point of the camera plane, with their radiance towards it.
     // Source: [K] (5.2), 5.7.1.
     std::array<ShadedPoint, 3> shaded_corners(std::uint32_t index, const DeepTriangle& triangle, CameraPoint camera,
                                               const HogelRange& region) const {
@@ -142,12 +142,12 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
 
     // Scan converts a triangle seen from a convex part of the region. Source: [K] 5.6.1, 5.7.3.
     void draw(std::uint32_t index, const DeepTriangle& triangle, const std::vector<CameraPoint>& seen_from,
-              const HogelRange& region, const Part& part, const SeenDirections& seen, Array<BufferedSample, 4>& buffer,
-              Visits& visits) const {
+              const HogelRange& region, const Part& part, const SeenDirections& visible,
+              Array<BufferedSample, 4>& buffer, Visits& visits) const {
         if (seen_from.size() < 3) return;
         std::vector<std::array<ShadedPoint, 3>> corners;
         for (const CameraPoint& camera : seen_from) corners.push_back(shaded_corners(index, triangle, camera, region));
-        // Triangles that share an edge divide their common face alike if they order its ends alike.
+        // Triangles that share an edge divide their common face in the same way if they order its ends in the same way.
         const auto& vertices = scene_->triangles[index].vertices;
         std::array<std::size_t, 3> order{0, 1, 2};
         std::ranges::sort(order, {}, [&](std::size_t i) { return vertices[i]; });
@@ -157,9 +157,9 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
                 std::array<ShadedPoint, 5> simplex;
                 for (std::size_t k = 0; k < 5; ++k) simplex[k] = corners[from[path[k].first]][order[path[k].second]];
                 ++visits.pieces;
-                slice_at_samples(simplex, axis::v, seen.v(), [&](double v, const auto& at_v) {
+                slice_at_samples(simplex, axis::v, visible.v(), [&](double v, const auto& at_v) {
                     ++visits.cuts;
-                    slice_at_samples(at_v, axis::u, seen.u(), [&](double u, const ShadedSlice& slice) {
+                    slice_at_samples(at_v, axis::u, visible.u(), [&](double u, const ShadedSlice& slice) {
                         ++visits.cuts;
                         scan_convert(index, slice, u, v, part,
                                      buffer[static_cast<std::size_t>(v)][static_cast<std::size_t>(u)], visits);
@@ -182,9 +182,9 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         for (std::size_t row = rows.first; row < rows.end; ++row) {
             const auto level = static_cast<double>(row);
             const double across = crossing(slice[0], slice[2], level);
-            const double other =
+            const double across_end =
                 level < t[1] ? crossing(slice[0], slice[1], level) : crossing(slice[1], slice[2], level);
-            const Span columns = half_open(std::min(across, other), std::max(across, other), part.columns);
+            const Span columns = half_open(std::min(across, across_end), std::max(across, across_end), part.columns);
             visits.samples += columns.size();
             for (std::size_t column = columns.first; column < columns.end; ++column)
                 update(index, slice, static_cast<double>(column), level, u, v,
@@ -206,16 +206,18 @@ class InterpolatingRenderer final : public Renderer, public CountsVisits {
         const double sum = a[0] + a[1] + a[2];
         if (sum == 0) return;
         for (double& weight : a) weight /= sum;
-        const auto interpolated = [&](std::size_t what) {
-            return a[0] * slice[0][what] + a[1] * slice[1][what] + a[2] * slice[2][what];
+        const auto interpolated = [&](std::size_t coordinate) {
+            return a[0] * slice[0][coordinate] + a[1] * slice[1][coordinate] + a[2] * slice[2][coordinate];
         };
         const double depth = 1 / interpolated(axis::q);
         const auto nearer = static_cast<float>(depth);
         if (!(nearer < sample.depth)) return;
-        const auto at = [&](std::size_t what) { return static_cast<float>(depth * interpolated(what)); };
-        sample = {nearer, {at(value::red), at(value::green), at(value::blue)}};
+        const auto value_at = [&](std::size_t coordinate) {
+            return static_cast<float>(depth * interpolated(coordinate));
+        };
+        sample = {nearer, {value_at(value::red), value_at(value::green), value_at(value::blue)}};
         if (scene_->triangles[index].texture == ShadedScene::no_texture) return;
-        const float b1 = at(value::weight1), b2 = at(value::weight2);
+        const float b1 = value_at(value::weight1), b2 = value_at(value::weight2);
         const ViewSample view = view_sample(grid_, grid_.u(u), grid_.v(v), depth);
         sample.radiance = sample.radiance * shading::texture_at(*scene_, index, 1 - b1 - b2, b1, b2, view);
     }

@@ -7,7 +7,7 @@
 
 namespace hogel::simplex {
 
-/// See make_interpolating_renderer(). It also counts its visits (visits.h).
+/// Implements make_interpolating_renderer(). The renderer also counts its visits (visits.h).
 std::unique_ptr<Renderer> interpolating_renderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid,
                                                  std::size_t region);
 

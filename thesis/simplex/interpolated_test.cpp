@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolation in four dimensions ([K] 5.5 to 5.7) against `simplex`, which computes every sample by itself.
+// Interpolation in four dimensions ([K] 5.5 to 5.7) against `simplex`, which computes every sample from its ray.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ LightFieldBuffer interpolated(const std::shared_ptr<const ShadedScene>& scene, s
     return light_field;
 }
 
-// Triangles of a tilted plane with radiance linear in space, and a card before it.
+// Triangles of a tilted plane with radiance linear in space, and a card in front of it.
 std::shared_ptr<ShadedScene> planes() {
     const auto radiance = [](Vec3 p) {
         return Rgb{float(0.5 + 40 * p.x), float(0.5 - 30 * p.y), float(0.5 + 50 * p.z)};
@@ -107,7 +107,7 @@ class Slanted final : public SampleLighting {
     }
 };
 
-// Small triangles, so that the error is that of the region.
+// Small triangles, so that the region determines the error.
 std::shared_ptr<ShadedScene> mosaic() {
     auto scene = std::make_shared<ShadedScene>();
     const double step = 0.5e-3;
@@ -131,7 +131,7 @@ TEST(Interpolated, error_of_light_that_depends_on_the_viewer_grows_with_the_squa
                  fine = difference(exact, interpolated(scene, 5, dense)).worst;
     EXPECT_LT(coarse, 0.05);
     EXPECT_GT(coarse, 1e-3) << "nothing is interpolated";
-    // Between viewpoints half as far apart, and triangles that stay the same.
+    // Viewpoints at half the distance, with the same triangles.
     EXPECT_LT(fine, 0.5 * coarse);
 }
 
@@ -148,7 +148,7 @@ TEST(Interpolated, gives_the_same_bytes_for_any_tiling) {
     }
 }
 
-// Half-open slices: a closed surface is covered once, which the number of visits shows.
+// Half-open slices cover a closed surface once, as the number of visits shows.
 TEST(Interpolated, visits_each_sample_of_a_triangle_once) {
     const auto scene = mosaic();
     const auto renderer = make_interpolating_renderer(scene, grid, 9);

@@ -8,15 +8,15 @@
 
 namespace hogel::simplex {
 
-/// A corner of the product of two simplices: one corner of each.
+/// Corner of the product of two simplices: one corner of each.
 struct ProductCorner {
     std::size_t first = 0, second = 0;
 };
 
-/// The decomposition of an (m, n)-simploid, the product of an m-simplex and an n-simplex, into (m + n)-simplices: one
-/// for each path from its corner (0, 0) to its corner (m, n) along edges that increase one of the two labels by one.
-/// These are the tables of [K] fig. 5.17 to 5.20. Two simploids that share a face divide it in the same way if they
-/// label its corners in the same order. `Corners` = m + n + 1; the result holds (m + n)!/(m! n!) simplices.
+/// Returns the decomposition of an (m, n)-simploid, the product of an m-simplex and an n-simplex, into (m +
+/// n)-simplices: one for each path from its corner (0, 0) to its corner (m, n) along edges that increase one of the two
+/// labels by one. These are the tables of [K] fig. 5.17 to 5.20. Two simploids that share a face divide it in the same
+/// way if they label its corners in the same order. `Corners` = m + n + 1; the result holds (m + n)!/(m! n!) simplices.
 /// Source: [K] 5.6.1.
 template <std::size_t Corners>
 std::span<const std::array<ProductCorner, Corners>> product_paths(std::size_t m);

@@ -9,9 +9,8 @@
 
 namespace hogel::simplex {
 
-/// Calls use(t, s, v, u) for all directions of the hogels in some rows and columns, a few hogels of a row at a time:
-/// depth buffers have s as their fastest index and tiles have u, so that lines of the cache are used whole on both
-/// sides.
+/// Calls use(t, s, v, u) for all directions of the hogels in some rows and columns, in blocks of a few hogels of a row.
+/// The fastest index is s in depth buffers and u in tiles; blocks use full cache lines of both.
 template <class Use>
 void for_each_ray(const LightFieldGrid& grid, const render::Span& rows, const render::Span& columns, const Use& use) {
     constexpr std::size_t hogels_at_once = 16;

@@ -12,8 +12,8 @@
 
 namespace hogel::simplex {
 
-/// The column s where row t crosses the edge between two projected points, which are on different sides of the row or
-/// on it. Source: [K] 5.7.4, the equation below (5.7).
+/// Returns the column s at which row t crosses the edge between two projected points. The points are on different sides
+/// of the row or on it. Source: [K] 5.7.4, the equation below (5.7).
 template <std::size_t Size>
 double crossing(const std::array<double, Size>& a, const std::array<double, Size>& b, double t) {
     const double from_a = t * a[axis::q] - a[axis::t], from_b = t * b[axis::q] - b[axis::t];
@@ -22,7 +22,7 @@ double crossing(const std::array<double, Size>& a, const std::array<double, Size
     return (weight_a * a[axis::s] + weight_b * b[axis::s]) / (weight_a * a[axis::q] + weight_b * b[axis::q]);
 }
 
-/// The range of numbers that are included.
+/// Range of the included numbers.
 struct Extent {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -30,8 +30,7 @@ struct Extent {
         low = std::min(low, value);
         high = std::max(high, value);
     }
-    /// Includes the columns where row t meets the triangle of three projected points, whose columns and rows are (s,
-    /// t).
+    /// Includes the columns in which row t meets the triangle of three projected points with columns and rows (s, t).
     template <class Points, class Places>
     void include_row(const std::array<std::size_t, 3>& corners, const Points& points, const Places& st, double t) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -42,17 +41,17 @@ struct Extent {
             if ((ta <= t && t <= tb) || (tb <= t && t <= ta)) include(crossing(points[a], points[b], t));
         }
     }
-    /// Those of `n` samples that lie between low and high.
+    /// Returns the range of the samples 0 to n − 1 between low and high.
     render::Span samples(std::size_t n) const { return render::samples_between(low, high, n); }
 };
 
-/// The column and row of hogels (s, t) of a projected point.
+/// Returns the column and row of hogels (s, t) of a projected point.
 inline std::array<double, 2> place_in_hogels(const ProjectedPoint& point) {
     const double depth = 1 / point[axis::q];
     return {point[axis::s] * depth, point[axis::t] * depth};
 }
 
-/// The rows and columns of hogels that a slice of a projected volume at one U and one V covers.
+/// Rows and columns of hogels covered by a slice of a projected volume at one U and one V.
 ///
 /// [K] calls the edges of the slice curves in (s, t). They are straight: (s, t) = (S, T)/Q is a central projection of
 /// (S, T, Q), in which the edges are straight. Only the spacing of points along them is not uniform.

@@ -11,8 +11,8 @@ using namespace render;
 
 namespace {
 
-// The samples of [0, n) from floor(low) to ceil(high), which may be far outside.
-Span around(double low, double high, std::size_t n) {
+// Returns the samples of [0, n) from floor(low) to ceil(high); low and high may be far outside.
+Span samples_around(double low, double high, std::size_t n) {
     const double last = static_cast<double>(n) - 1;
     // Rounding of quotients by a small ζ.
     const double margin = 1e-3 + 1e-12 * std::max(std::abs(low), std::abs(high));
@@ -24,9 +24,9 @@ Span around(double low, double high, std::size_t n) {
 }  // namespace
 
 SeenDirections::SeenDirections(const LightFieldGrid& grid) : grid_(grid) {
-    const std::uint8_t all = grid.face() == Face::front ? 0 : 1;
-    u_.seen.assign(grid.directions_u, all);
-    v_.seen.assign(grid.directions_v, all);
+    const std::uint8_t all_seen = grid.face() == Face::front ? 0 : 1;
+    u_.seen.assign(grid.directions_u, all_seen);
+    v_.seen.assign(grid.directions_v, all_seen);
 }
 
 bool SeenDirections::find(const DeepTriangle& triangle, const HogelRange& range) {
@@ -50,12 +50,12 @@ bool SeenDirections::find(const DeepTriangle& triangle, std::size_t coordinate, 
     const double last = hogels.first + static_cast<double>(hogels.count - 1) * hogels.step;
     for (const auto& corner : triangle)
         for (const double hogel : {hogels.first, last}) {
-            const double at = index((corner[coordinate] - hogel) / corner[2]);
-            low = std::min(low, at);
-            high = std::max(high, at);
+            const double position = index((corner[coordinate] - hogel) / corner[2]);
+            low = std::min(low, position);
+            high = std::max(high, position);
         }
-    axis.filled = around(low, high, axis.seen.size());
-    bool any = false;
+    axis.filled = samples_around(low, high, axis.seen.size());
+    bool is_any_seen = false;
     for (std::size_t i = axis.filled.first; i < axis.filled.end; ++i) {
         const double slope = direction(i);
         low = infinity, high = -infinity;
@@ -66,9 +66,9 @@ bool SeenDirections::find(const DeepTriangle& triangle, std::size_t coordinate, 
         }
         const bool seen = samples_between(low, high, hogels.count).size() > 0;
         axis.seen[i] = seen ? 1 : 0;
-        any |= seen;
+        is_any_seen |= seen;
     }
-    return any;
+    return is_any_seen;
 }
 
 }  // namespace hogel::simplex

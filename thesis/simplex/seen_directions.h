@@ -11,12 +11,12 @@
 
 namespace hogel::simplex {
 
-/// The directions in which hogels of a tile may see a triangle, one axis at a time. Along U a triangle is seen by the
-/// hogels between the ends of x − Uζ, whatever V is; where that is no column of hogels, no slice at U holds a sample. V
-/// and rows alike. Triangles that are smaller than the hogels are apart are seen in few of the directions that their
-/// volumes reach.
+/// Directions in which hogels of a tile may see a triangle, one axis at a time. For a given U, a triangle is visible
+/// from the hogels between the ends of x − Uζ, independently of V. If no column of hogels is in this range, no slice at
+/// U has a sample. The same holds for V and rows. Triangles smaller than the pitch of hogels are visible in few of the
+/// directions that their volumes cover.
 ///
-/// On the sides of a hemicube, where ζ depends on the hogel, all directions count as seen.
+/// On the sides of a hemicube ζ depends on the hogel, and all directions count as visible.
 class SeenDirections {
   public:
     explicit SeenDirections(const LightFieldGrid& grid);
@@ -25,18 +25,18 @@ class SeenDirections {
     /// false if there are none.
     bool find(const DeepTriangle& triangle, const HogelRange& range);
 
-    /// For each column of directions, whether any hogel may see the triangle in it.
+    /// Returns for each column of directions whether any hogel may see the triangle in it.
     std::span<const std::uint8_t> u() const { return u_.seen; }
-    /// For each row of directions.
+    /// Returns the same for each row of directions.
     std::span<const std::uint8_t> v() const { return v_.seen; }
 
   private:
-    // One axis: U and the columns of hogels, or V and their rows.
+    // One axis: U and the columns of hogels, or V and the rows.
     struct Axis {
         std::vector<std::uint8_t> seen;
-        render::Span filled;  // outside of which nothing is seen
+        render::Span filled;  // no direction outside of it is seen
     };
-    // The hogels of a tile along an axis: position of the first, step, number.
+    // Hogels of a tile along an axis: position of the first, step, number.
     struct Hogels {
         double first, step;
         std::size_t count;

@@ -18,7 +18,7 @@ using namespace render;
 
 namespace {
 
-// The depth buffer, [v][u][t][s]: the inner loops run over hogels.
+// Returns the depth buffer, [v][u][t][s]: the inner loops run over hogels.
 Shape<4> simplex_buffer(const LightFieldGrid& grid, const HogelRange& region) {
     return {grid.directions_v, grid.directions_u, region.nt, region.ns};
 }
@@ -55,7 +55,7 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
             for (const DeepTriangle& part : clip_to_near_plane(deep_triangle(*scene_, index), 0.5 * near_)) {
                 if (!seen.find(part, tile.range)) continue;
                 const RegionSides sides = split_at_back_face(part, grid_, tile.range);
-                // From either side the volume is convex.
+                // The volume seen from either side is convex.
                 for (const auto* side : {&sides.front, &sides.back}) {
                     if (side == &sides.back && scene_->fronts_only) continue;
                     simplices.clear();
@@ -97,7 +97,7 @@ class SimplexRenderer final : public Renderer, public CountsVisits {
         });
     }
 
-    // As above for all simplices of a volume, which is convex: a row of hogels is covered from the first to the last.
+    // Scan converts all simplices of a convex volume together: a row of hogels is covered from the first to the last.
     // Source: [K] 7.2.2.
     void scan_convert(std::uint32_t index, const std::vector<Simplex<4>>& simplices, StripSlices& slices,
                       const SeenDirections& seen, const HogelRange& range, Array<NearestTriangle, 4>& buffer,

@@ -20,7 +20,7 @@ using namespace render;
 
 namespace {
 
-// The depth buffer, [v][u][s]: one row of hogels.
+// Returns the depth buffer, [v][u][s]: one row of hogels.
 Shape<3> simplex3d_buffer(const LightFieldGrid& grid, const HogelRange& region) {
     return {grid.directions_v, grid.directions_u, region.ns};
 }

@@ -19,8 +19,8 @@ namespace {
 
 using namespace literals;
 
-// The determinant of the edges from the first corner, over the first N coordinates except `skip`: N! times the signed
-// volume.
+// Returns the determinant of the edges from the first corner, over the first N coordinates except `skip`: N! times the
+// signed volume.
 template <std::size_t N>
 double determinant(const std::array<ProjectedPoint, N + 1>& corners, std::size_t skip = 5) {
     std::array<std::array<double, N>, N> m;
@@ -54,7 +54,8 @@ double size(const std::array<ProjectedPoint, N + 1>& corners, std::size_t skip =
     return std::abs(determinant<N>(corners, skip));
 }
 
-// Whether a simplex contains a point, by Cramer's rule: replacing a corner by the point gives the corner's weight.
+// Returns whether a simplex contains a point, by Cramer's rule: replacing a corner by the point gives the corner's
+// weight.
 template <std::size_t N>
 bool contains(const std::array<ProjectedPoint, N + 1>& corners, const ProjectedPoint& p, std::size_t skip = 5) {
     const double whole = determinant<N>(corners, skip);
@@ -365,8 +366,8 @@ TEST(Slice, two_simplices_that_share_a_corner_on_a_plane_are_sliced_there_once) 
     EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4, 4}));
 }
 
-// A triangle just behind the hologram moves by thousands of directions from hogel to hogel. The work for its simplices
-// is bounded by the samples there are: three tetrahedra at each V, two triangles at each U.
+// A triangle just behind the hologram moves by thousands of directions from hogel to hogel. The number of samples
+// bounds the work for its simplices: three tetrahedra at each V, two triangles at each U.
 TEST(Slice, work_is_bounded_by_the_field_of_view) {
     std::mt19937 random(6);
     constexpr std::size_t samples = 4;

@@ -17,26 +17,26 @@ using namespace render;
 
 namespace {
 
-// The depth buffer, [slow hogels][fast hogels][fast directions]: the rays of one V.
+// Returns the depth buffer, [slow hogels][fast hogels][fast directions]: the rays of one V.
 Shape<3> simploid_buffer(const RowAxes& axes, const HogelRange& region) {
     return {axes.slow_hogels(region), axes.fast_hogels(region), axes.fast_directions()};
 }
 
-// The corners of a triangle projected along the directions of one V: for each the row of hogels that sees it, and x and
-// ζ.
+// Corners of a triangle projected along the directions of one V: for each the row of hogels that sees it, x, and ζ.
 struct ProjectedTriangle {
     std::array<double, 3> row;
-    std::array<SegmentPoint, 3> at;
+    std::array<SegmentPoint, 3> corners;
 
-    // Puts into a band the points where edges cross a row, and corners within the margin of it.
+    // Adds to a band the points at which edges cross a row, and corners within the margin of the row.
     void slice(double level, Band& band) const {
         band.count = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = i == 2 ? 0 : i + 1;
-            if (std::abs(row[i] - level) <= scan_margin) band.include(at[i]);
+            if (std::abs(row[i] - level) <= scan_margin) band.include(corners[i]);
             if ((row[i] < level && level < row[j]) || (row[j] < level && level < row[i])) {
                 const double part = (level - row[i]) / (row[j] - row[i]);
-                band.include({at[i].x + part * (at[j].x - at[i].x), at[i].depth + part * (at[j].depth - at[i].depth)});
+                band.include({corners[i].x + part * (corners[j].x - corners[i].x),
+                              corners[i].depth + part * (corners[j].depth - corners[i].depth)});
             }
         }
     }
@@ -50,15 +50,15 @@ struct Range {
         low = std::min(low, value);
         high = std::max(high, value);
     }
-    // Whether numbers that are known up to roundings may lie between 0 and `last`.
+    // Returns whether numbers with rounding errors may lie between 0 and `last`.
     bool may_reach(double last) const {
         const double margin = 1e-3 + 1e-12 * std::max(std::abs(low), std::abs(high));
         return !(high < -margin || low > last + margin);
     }
 };
 
-// In this file t and V stand for the slow axis of RowAxes, s and U for the fast one: on the left and right of a
-// hemicube they are s, U, t and V.
+// In this file t and V are the slow axis of RowAxes, s and U the fast axis. On the left and right of a hemicube s and U
+// are the slow axis, t and V the fast axis.
 class SimploidRenderer final : public Renderer, public CountsVisits {
   public:
     SimploidRenderer(std::shared_ptr<const ShadedScene> scene, const LightFieldGrid& grid) : grid_(grid), axes_(grid) {
@@ -90,25 +90,25 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
     }
 
   private:
-    // Slopes between which those of all directions lie, along both axes; the fast one as hogels are counted.
+    // Ranges of the slopes of all directions, along both axes; along the fast one in the direction of rising hogels.
     struct Slopes {
         Range slow, fast;
     };
     Slopes slopes() const {
-        Slopes all;
+        Slopes ranges;
         const std::size_t last = axes_.fast_directions() - 1;
         for (std::size_t slow = 0; slow < axes_.slow_directions(); ++slow) {
-            all.slow.include(SlabRays::slow_slope_of(grid_, axes_, slow));
-            // They are uniform between these.
+            ranges.slow.include(SlabRays::slow_slope_of(grid_, axes_, slow));
+            // Slopes are uniform between the first and the last.
             for (const std::size_t fast : {std::size_t{0}, last})
-                all.fast.include(SlabRays::fast_slope_of(grid_, axes_, slow, fast) * axes_.fast_sign());
+                ranges.fast.include(SlabRays::fast_slope_of(grid_, axes_, slow, fast) * axes_.fast_sign());
         }
-        return all;
+        return ranges;
     }
 
-    // The triangles that hogels of a region may see.
+    // Returns the triangles that hogels of a region may see.
     TriangleBlocks blocks_in_view(const HogelRange& range) const {
-        const Slopes all = slopes();
+        const Slopes ranges = slopes();
         const double per_pitch = 1 / grid_.pitch, row_sign = -axes_.fast_sign();
         const double first_row = axes_.slow_hogel(range, 0), first_hogel = axes_.fast_hogel(range, 0);
         const auto last_row = static_cast<double>(axes_.slow_hogels(range) - 1),
@@ -124,8 +124,10 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
                 rows[i] = row_sign * ((axes_.transposed() ? p.x : p.y) - first_row) * per_pitch;
                 depths[i] = row_sign * depth;
                 const double column = axes_.fast_sign() * ((axes_.transposed() ? p.y : p.x) - first_hogel) * per_pitch;
-                for (const double slope : {all.slow.low, all.slow.high}) seen_rows.include(rows[i] - slope * depths[i]);
-                for (const double step : {all.fast.low, all.fast.high}) seen_columns.include(column - step * depth);
+                for (const double slope : {ranges.slow.low, ranges.slow.high})
+                    seen_rows.include(rows[i] - slope * depths[i]);
+                for (const double step : {ranges.fast.low, ranges.fast.high})
+                    seen_columns.include(column - step * depth);
             }
             if (!seen_rows.may_reach(last_row) || !seen_columns.may_reach(last_hogel)) continue;
             if (used == TriangleBlock::size) {
@@ -139,7 +141,7 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
 
     void store_slab(LightFieldTile& tile, const SlabRays& rays, std::size_t slow,
                     const Array<std::uint64_t, 3>& words) const {
-        const std::span<const std::uint64_t> all = words.elements();
+        const std::span<const std::uint64_t> elements = words.elements();
         std::size_t number = 0;
         for (std::size_t row = 0; row < rays.rows(); ++row)
             for (std::size_t i = 0; i < rays.hogels(); ++i) {
@@ -147,10 +149,10 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
                 const SampleRow to(tile, axes_.transposed() ? grid_.directions_u : 1, t, s, v, u);
                 for (std::size_t fast = 0; fast < rays.directions(); ++fast, ++number) {
                     constexpr std::size_t ahead = 24;
-                    if (number + ahead < all.size())
-                        if (const auto later = triangle_of(all[number + ahead]); later != NearestTriangle::none)
+                    if (number + ahead < elements.size())
+                        if (const auto later = triangle_of(elements[number + ahead]); later != NearestTriangle::none)
                             triangles_[later].fetch();
-                    const std::uint32_t index = triangle_of(all[number]);
+                    const std::uint32_t index = triangle_of(elements[number]);
                     if (index == NearestTriangle::none) {
                         to.store(fast, scene_->background, std::numeric_limits<double>::infinity());
                         continue;
@@ -158,8 +160,8 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
                     const SlabTriangle& triangle = triangles_[index];
                     const VisiblePoint point = rays.sees(index, row, i, fast);
                     if (triangle.needs_samples) {
-                        const auto at = axes_.sample(row, i, slow, fast);
-                        store(tile, *scene_, grid_, point, at.t, at.s, at.v, at.u);
+                        const auto sample = axes_.sample(row, i, slow, fast);
+                        store(tile, *scene_, grid_, point, sample.t, sample.s, sample.v, sample.u);
                     } else {
                         const auto& [a, b, c] = triangle.radiance;
                         to.store(fast, point.b0 * a + point.b1 * b + point.b2 * c, point.depth);
@@ -168,7 +170,7 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
             }
     }
 
-    // The samples of one hogel and one V in a tile, as store() writes them.
+    // Samples of one hogel and one V in a tile, as the destination of store().
     class SampleRow {
       public:
         SampleRow(LightFieldTile& tile, std::size_t stride, std::size_t t, std::size_t s, std::size_t v, std::size_t u)
@@ -195,7 +197,7 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
         float* depth_ = nullptr;
     };
 
-    // The rays of a tile with one V.
+    // Rays of a tile with one V.
     class Slab {
       public:
         Slab(const SimploidRenderer& renderer, const SlabRays& rays, const HogelRange& range, std::uint64_t* words,
@@ -252,7 +254,7 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
                 const double fast = (axes_.transposed() ? p.y : p.x) * per_pitch_;
                 const double slow = (axes_.transposed() ? p.x : p.y) * per_pitch_;
                 projected.row[i] = row_sign * (slow - rays_.slow_slope() * depth - first_row_);
-                projected.at[i] = {axes_.fast_sign() * fast - first_hogel_, depth};
+                projected.corners[i] = {axes_.fast_sign() * fast - first_hogel_, depth};
             }
             return projected;
         }
@@ -260,18 +262,18 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
         void set_triangle(Band& band, std::uint32_t index, std::size_t row) const {
             band.triangle = index;
             band.row = row;
-            const double at = rays_.slow_hogel(row);
+            const double row_position = rays_.slow_hogel(row);
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vec3& p = rays_.triangle(index).corners[i];
                 band.depth[i] = -p.z;
                 band.fast[i] = axes_.transposed() ? p.y : p.x;
-                // As ObliqueTriangle rounds.
-                band.slow[i] = ((axes_.transposed() ? p.x : p.y) - rays_.slow_slope() * band.depth[i]) - at;
+                // Rounded as in ObliqueTriangle.
+                band.slow[i] = ((axes_.transposed() ? p.x : p.y) - rays_.slow_slope() * band.depth[i]) - row_position;
             }
         }
 
-        // The directions in which hogels of the tile may see a segment: all if it comes close to the hologram plane,
-        // where directions are undefined.
+        // Returns the directions in which hogels of the tile may see a segment: all if it is close to the hologram
+        // plane, where directions are undefined.
         Span columns_of_directions(const Band& band) const {
             constexpr double margin = 1e-3;
             Range seen, depths;
@@ -298,7 +300,7 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
         std::uint64_t* words_;
         Visits& visits_;
         double per_pitch_, first_row_, first_hogel_;
-        std::vector<Band> bands_;  // of which the first are in use
+        std::vector<Band> bands_;  // only the first ones are in use
         std::size_t band_count_ = 0;
     };
 
@@ -309,8 +311,8 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
     SlabTriangles triangles_;
 };
 
-// The copy of corners and radiance, and, for each region in work, the rows of those that the region may see
-// (TriangleBlock).
+// Memory of a copied triangle (corners and radiance), and, for each region in progress, of its entry in a
+// TriangleBlock.
 constexpr double bytes_a_slab_triangle = 128, bytes_a_block_triangle = 28;
 
 }  // namespace

@@ -25,7 +25,7 @@ SlabTriangles slab_triangles(const ShadedScene& scene, SlabTriangles list) {
 }
 
 TriangleBlock::TriangleBlock() {
-    // Padding belongs to no triangle and lies in no row.
+    // Value of padding, which lies in no row.
     constexpr float nowhere = 1e30f;
     for (std::size_t corner = 0; corner < 3; ++corner) {
         std::ranges::fill(row[corner], nowhere);
@@ -97,10 +97,10 @@ SlabRays::SlabRays(std::span<const SlabTriangle> triangles, bool fronts_only, co
 
 void see_sample(const Band& band, const SlabRays& rays, std::size_t hogel, std::size_t direction,
                 std::uint64_t* words) {
-    const VisiblePoint seen = rays.sees(band.triangle, band.row, hogel, direction);
+    const VisiblePoint point = rays.sees(band.triangle, band.row, hogel, direction);
     std::uint64_t& word = words[rays.word(band.row, hogel, direction)];
-    // A depth beyond the largest float is infinity, which the nearest word of no triangle has too.
-    const auto depth = static_cast<float>(seen.depth);
+    // A depth beyond the largest float becomes infinity, as in the word of no triangle.
+    const auto depth = static_cast<float>(point.depth);
     if (depth < std::numeric_limits<float>::infinity()) word = std::min(word, seen_word(depth, band.triangle));
 }
 

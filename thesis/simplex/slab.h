@@ -21,12 +21,12 @@ namespace hogel::simplex {
 
 using render::Visits;
 
-// The inner loops of `simploid` over the rays of one V, a slab of the region. Here t and V stand for the slow axis of
-// RowAxes, s and U for the fast one. The kernels exist as twins, a plain and a vector version, which find the same
-// triangles, test the same samples and write the same bits.
+// Inner loops of `simploid` over the rays of one V, a slab of the region. Here t and V are the slow axis of RowAxes, s
+// and U the fast axis. The kernels exist as twins, a plain and a vector version. Both find the same triangles, test the
+// same samples and write the same bits.
 
-/// What rays need of a triangle, on two cache lines: rays that are neighbours may see triangles that are anywhere in
-/// memory.
+/// Data of a triangle for its rays, on two cache lines, because neighbouring rays may see triangles at distant
+/// addresses.
 struct alignas(64) SlabTriangle {
     std::array<Vec3, 3> corners;
     std::array<Rgb, 3> radiance;  ///< at the corners
@@ -38,19 +38,19 @@ struct alignas(64) SlabTriangle {
     }
 };
 
-/// The triangles of a scene, in huge pages where the system grants them.
+/// Triangles of a scene, in huge pages if the system grants them.
 using SlabTriangles = std::vector<SlabTriangle, CacheLineAllocator<SlabTriangle>>;
-/// @param list  an earlier list whose memory is reused
+/// Returns the triangles of a scene. Reuses the memory of `list`.
 SlabTriangles slab_triangles(const ShadedScene& scene, SlabTriangles list = {});
 
-/// 64 triangles, and where hogels of a region see their corners: at a V of slope dy/dζ a corner is in row `row` − slope
-/// · `depth`. Both are in rows of hogels, and rounded, so that they only tell which triangles need not be looked at.
+/// 64 triangles, and the rows of hogels from which their corners are visible: at a V of slope dy/dζ, row `row` − slope
+/// · `depth`. Both are in rows of hogels and rounded, so they serve only to skip triangles.
 struct alignas(64) TriangleBlock {
     static constexpr std::size_t size = 64;
 
     float row[3][size], depth[3][size];
     std::uint32_t triangle[size];
-    float min_row, max_row, min_depth, max_depth;  ///< of all corners
+    float min_row, max_row, min_depth, max_depth;  ///< ranges over all corners
 
     TriangleBlock();
     void set(std::size_t i, std::uint32_t index, const std::array<double, 3>& rows,
@@ -58,53 +58,52 @@ struct alignas(64) TriangleBlock {
 };
 using TriangleBlocks = std::vector<TriangleBlock, CacheLineAllocator<TriangleBlock>>;
 
-/// The rows of one V, for the search for triangles that cover some of them.
+/// Rows of one V, for the search for triangles that cover some of them.
 struct SlabRows {
     float slope;
-    float last;  ///< number of the last row
+    float last;  ///< index of the last row
 
-    /// What roundings may move a corner of a block by, and the margin of scan conversion.
+    /// Returns the maximum rounding error of the row of a corner, plus the margin of scan conversion.
     float margin(const TriangleBlock& block) const {
-        constexpr float rounding = 5e-7f, scan = 2e-6f;  // eight halves of a float's last place
+        constexpr float rounding = 5e-7f, scan = 2e-6f;  // rounding: eight times half a unit in the last place
         const float rows = std::max(std::abs(block.min_row), std::abs(block.max_row));
         const float depths = std::max(std::abs(block.min_depth), std::abs(block.max_depth));
         return scan + rounding * (rows + std::abs(slope) * depths);
     }
 
-    /// Whether a triangle of the block may cover a row.
+    /// Returns whether a triangle of the block may cover a row.
     bool may_show(const TriangleBlock& block) const {
-        const float a = slope * block.min_depth, b = slope * block.max_depth, by = margin(block);
-        return !(block.max_row - std::min(a, b) < -by || block.min_row - std::max(a, b) > last + by);
+        const float a = slope * block.min_depth, b = slope * block.max_depth, tolerance = margin(block);
+        return !(block.max_row - std::min(a, b) < -tolerance || block.min_row - std::max(a, b) > last + tolerance);
     }
 };
 
-/// Writes the triangles of a block that may cover a row, in the block's order, and returns their number. None is
-/// missing that does, and few others are found. `found` has room for TriangleBlock::size, of which those beyond the
-/// last found may change.
+/// Writes the indices of all triangles of a block that cover a row, and of few others, in the block's order. Returns
+/// their number. `found` has TriangleBlock::size elements; elements after the last found one may change.
 std::size_t find_in_rows_plain(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found);
 extern decltype(find_in_rows_plain)& find_in_rows;
 
-/// A point (x, ζ) in the plane of the rays of one t and one V: x as a column of hogels relative to the region's first,
-/// and the depth in hogels, which is the shift of x for U = 1.
+/// Point (x, ζ) in the plane of the rays of one t and one V: x as a column of hogels relative to the region's first
+/// hogel, and the depth in hogels: the shift of x for U = 1.
 struct SegmentPoint {
     double x = 0, depth = 0;
 };
 
-/// The part of a triangle that the rays of one t and one V can see, usually the segment between the points where two
-/// edges cross their plane. In the plane (s, U) each point is a line, and the segment is the band between two lines.
+/// Part of a triangle visible to the rays of one t and one V, usually the segment between the points at which two edges
+/// cross their plane. In the plane (s, U) each point is a line, and the segment is the band between two lines.
 struct Band {
     std::array<SegmentPoint, 5> points;  ///< at most two crossings of edges and three vertices
     std::size_t count = 0;
     std::uint32_t triangle = 0;
     std::size_t row = 0;
-    render::Span columns{};             ///< the directions U whose rays may meet it
-    std::array<double, 3> fast, depth;  ///< the triangle's corners, metres: x, and ζ
+    render::Span columns{};             ///< directions U with rays that may meet it
+    std::array<double, 3> fast, depth;  ///< x and ζ of the triangle's corners, metres
     std::array<double, 3> slow;         ///< y − Vζ − t of the row
 
     void include(SegmentPoint p) { points[count++] = p; }
 };
 
-/// The rays of one V of a region, and the triangles that they may meet. All arguments must outlive this object.
+/// Rays of one V of a region, and the triangles that they may meet. All arguments must outlive this object.
 class SlabRays {
   public:
     SlabRays(std::span<const SlabTriangle> triangles, bool fronts_only, const LightFieldGrid& grid,
@@ -117,31 +116,31 @@ class SlabRays {
     std::size_t hogels() const { return hogels_; }
     std::size_t directions() const { return directions_; }
     double slow_slope() const { return slow_slope_; }
-    /// dx/dζ along the fast axis of each direction; a vector may be read beyond the last.
+    /// Returns dx/dζ along the fast axis of each direction, padded by a vector after the last.
     const double* slopes() const { return slopes_.data(); }
-    /// The same in hogels, counted as the region's hogels are.
+    /// Returns the same in hogels, positive in the direction of rising hogel indices.
     const double* steps() const { return steps_.data(); }
-    /// The point that the ray of a hogel and direction of a row sees of a triangle; its depth is infinite if there is
-    /// none.
+    /// Returns the intersection of a triangle with the ray of a hogel and direction of a row; the depth is infinite if
+    /// there is none.
     render::VisiblePoint sees(std::uint32_t index, std::size_t row, std::size_t hogel, std::size_t direction) const {
-        const double slow = slow_hogel(row), fast = fast_hogel(hogel), along = slopes_[direction];
+        const double slow = slow_hogel(row), fast = fast_hogel(hogel), fast_slope = slopes_[direction];
         const auto& corners = triangles_[index].corners;
         if (axes_.transposed())
-            return render::visible_point(index, render::ObliqueTriangle(corners, fronts_only_, slow_slope_, along),
+            return render::visible_point(index, render::ObliqueTriangle(corners, fronts_only_, slow_slope_, fast_slope),
                                          slow, fast);
-        return render::visible_point(index, render::ObliqueTriangle(corners, fronts_only_, along, slow_slope_), fast,
-                                     slow);
+        return render::visible_point(index, render::ObliqueTriangle(corners, fronts_only_, fast_slope, slow_slope_),
+                                     fast, slow);
     }
 
     double slow_hogel(std::size_t row) const { return axes_.slow_hogel(range_, row); }
     double fast_hogel(std::size_t i) const { return axes_.fast_hogel(range_, i); }
-    /// fast_hogel(i) is (first_fast() + fast_sign() i) pitch(), to the last bit, because all but the last product is
-    /// exact.
+    /// fast_hogel(i) equals (first_fast() + fast_sign() i) pitch() to the last bit, because all products but the last
+    /// are exact.
     double first_fast() const { return first_fast_; }
     double fast_sign() const { return axes_.fast_sign(); }
     double pitch() const { return grid_.pitch; }
 
-    /// The index of a sample in the slab's words: [rows][hogels][directions].
+    /// Returns the index of a sample in the slab's words: [rows][hogels][directions].
     std::size_t word(std::size_t row, std::size_t hogel, std::size_t direction) const {
         return (row * hogels_ + hogel) * directions_ + direction;
     }
@@ -164,8 +163,8 @@ class SlabRays {
     std::vector<double> slopes_, steps_;
 };
 
-/// What a sample has seen, as one number: the depth's ordered bits above the triangle's index. The smallest is the
-/// nearest, and of several triangles at one depth the first, in whichever order they are drawn.
+/// Packs the depth and the triangle seen by a sample: the depth's ordered bits above the triangle's index. The smallest
+/// word is the nearest triangle, and of triangles at the same depth the first, for any order of drawing.
 inline std::uint64_t seen_word(float depth, std::uint32_t triangle) {
     return std::uint64_t{render::ordered_bits(depth + 0.0f)} << 32 | triangle;  // −0 is 0
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector twins of slab.cpp, compiled for every SIMD target and chosen when first called.
+// Vector twins of slab.cpp, compiled for every SIMD target and selected at the first call.
 #include <bit>
 #include <cstring>
 
@@ -11,7 +11,7 @@ namespace hogel::simplex::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
-// A single lane of doubles has no half of floats.
+// Plain version for vectors with a single lane of doubles, which have no half vector of floats.
 std::size_t FindInRows(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found) {
     return find_in_rows_plain(block, rows, found);
 }
@@ -37,7 +37,7 @@ std::size_t FindInRows(const TriangleBlock& block, const SlabRows& rows, std::ui
         const auto low = hn::Min(hn::Min(a, b), c), high = hn::Max(hn::Max(a, b), c);
         const auto first = hn::Ceil(hn::Max(hn::Sub(low, margin), hn::Zero(d)));
         const auto last = hn::Floor(hn::Min(hn::Add(high, margin), last_row));
-        // No more are found than have been looked at, so that a whole vector fits.
+        // At most as many are found as were tested, so a full vector fits.
         const auto may_cover = hn::RebindMask(du, hn::Le(first, last));
         hn::StoreU(hn::Compress(hn::Load(du, block.triangle + i), may_cover), du, found + count);
         count += hn::CountTrue(du, may_cover);
@@ -50,17 +50,17 @@ using Tag = hn::FixedTag<double, 2>;
 #else
 using Tag = hn::ScalableTag<double>;
 #endif
-// As many floats and whole numbers as doubles.
+// Vectors with as many floats or whole numbers as doubles.
 using FloatHalf = hn::Rebind<float, Tag>;
 using WholeHalf = hn::Rebind<std::int32_t, Tag>;
 using Doubles = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// The numbers of words are 32 bits wide here.
+// Indices of words have 32 bits here.
 constexpr std::size_t max_words = std::size_t{1} << 31;
 
-// Samples that meet triangles, and what they see, collected so that no branch depends on the number of hits in a
-// vector. Vectors of 32 bits are compressed, because Highway reads a table for those of 64.
+// Queue of samples that meet triangles, with their words, so that no branch depends on the number of hits in a vector.
+// Vectors of 32 bits are compressed, because Highway needs a table for 64 bits.
 class Hits {
   public:
     explicit Hits(std::uint64_t* words) : words_(words) {}
@@ -101,7 +101,7 @@ class Hits {
     HWY_ALIGN std::int32_t seen_[max_queued + hn::MaxLanes(Tag())][2];  // halves of words
 };
 
-// A triangle in all lanes, projected along one direction a lane.
+// A triangle in all lanes, projected along one direction per lane.
 class TriangleLanes {
   public:
     HWY_INLINE TriangleLanes(const Band& band, Doubles slopes) : band_(band) {
@@ -110,8 +110,8 @@ class TriangleLanes {
             fast_[i] = hn::Sub(hn::Set(d, band.fast[i]), hn::Mul(slopes, hn::Set(d, band.depth[i])));
     }
 
-    // ObliqueTriangle::at() for the hogels at these coordinates. Transposed axes change the sign of all three weights
-    // and of the area, to the last bit. Lanes where a ray meets an edge are left to the caller.
+    // Computes ObliqueTriangle::at() for the hogels at these coordinates. Transposed axes change the sign of all three
+    // weights and of the area, exactly. The caller handles lanes in which a ray meets an edge.
     struct Hit {
         Mask inside, on_edge;
         Doubles depth;

@@ -20,7 +20,7 @@ using namespace literals;
 
 HOGEL_TEST_ON_EVERY_TARGET(SlabKernels);
 
-// The front, with off-centre directions, and all sides of a hemicube, two of which have transposed axes.
+// Returns the front, with off-centre directions, and all sides of a hemicube, two of which have transposed axes.
 std::vector<LightFieldGrid> grids() {
     LightFieldGrid aside{11, 9, 0.4_mm, 37, 5, Perspective{0.5, 0.4}, 3};
     aside.range().center_u = 0.2;
@@ -65,7 +65,7 @@ TEST_P(SlabKernels, twins_find_the_same_triangles) {
     EXPECT_GT(count, 200u);
 }
 
-// Against exact rows: whatever covers one is found, and nearly nothing else.
+// Compared with exact rows: finds all triangles that cover a row, and very few others.
 TEST(Slab, finds_the_triangles_that_cover_rows_and_few_others) {
     std::mt19937 random(4);
     std::size_t covering = 0, all = 0;
@@ -97,8 +97,8 @@ TEST(Slab, finds_the_triangles_that_cover_rows_and_few_others) {
     EXPECT_LE(all, covering + covering / 100);
 }
 
-// A triangle that a row cuts anywhere between two of its corners, wider or narrower than the samples are apart; some
-// have corners exactly where rays pass, some lines of their bands are longer than the field of view.
+// Triangles that a row cuts anywhere between two corners, wider or narrower than the distance of samples. Some have
+// corners exactly on rays; some lines of their bands are longer than the field of view.
 struct Drawn {
     ShadedScene scene;
     std::vector<Band> bands;
@@ -117,7 +117,7 @@ Drawn random_bands(std::mt19937& random, const LightFieldGrid& grid, const Hogel
         const double along = rays.fast_hogel(random() % rays.hogels()), far = depth(random);
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const double zeta = far + (i % 7 == 0 ? 0 : size * step(random));
-            // Rays of one direction meet these where they pass the corner; every fourth triangle has one on a ray.
+            // Every fourth triangle has a corner exactly on a ray of one direction.
             const bool on_ray = i % 4 == 0 && corner == 0;
             const std::size_t k = rays.directions() / 2;
             const double fast = along + rays.slopes()[k] * zeta + (on_ray ? 0 : size * step(random));

@@ -27,9 +27,9 @@ void clip(std::vector<std::array<ProjectedPoint, N>>& simplices, std::size_t axi
                 if (path[k].second == 0) {
                     piece[k] = corner;
                 } else {
-                    const ProjectedPoint& beyond = simplex[out + path[k].second - 1];
-                    piece[k] = keep_above ? point_between(beyond, corner, axis, bound)
-                                          : point_between(corner, beyond, axis, bound);
+                    const ProjectedPoint& outer_corner = simplex[out + path[k].second - 1];
+                    piece[k] = keep_above ? point_between(outer_corner, corner, axis, bound)
+                                          : point_between(corner, outer_corner, axis, bound);
                 }
             }
         }

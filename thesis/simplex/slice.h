@@ -12,9 +12,9 @@
 
 namespace hogel::simplex {
 
-// Points have `Size` coordinates, those of ProjectedPoint and perhaps values that are interpolated with them.
+// Points have `Size` coordinates: those of ProjectedPoint, optionally followed by interpolated values.
 
-/// Whether a point comes before another along an axis, equal ones by their other coordinates.
+/// Returns whether a point precedes another along an axis; ties are resolved by the other coordinates.
 template <std::size_t Size>
 bool is_before(const std::array<double, Size>& a, const std::array<double, Size>& b, std::size_t axis) {
     return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
@@ -31,8 +31,8 @@ void sort_along(std::size_t axis, std::array<std::array<double, Size>, N>& corne
     });
 }
 
-/// The samples of [0, n) whose planes what lies between `first` and `last` along an axis has points on both sides of:
-/// first < sample <= last.
+/// Returns the samples of [0, n) whose planes cut an object that extends from `first` to `last` along an axis: first <
+/// sample <= last.
 inline render::Span samples_cut(double first, double last, std::size_t n) {
     const double from = std::max(std::floor(first) + 1, 0.0);
     const double upto = std::min(std::floor(last), static_cast<double>(n) - 1);
@@ -40,7 +40,7 @@ inline render::Span samples_cut(double first, double last, std::size_t n) {
     return {static_cast<std::size_t>(from), static_cast<std::size_t>(upto) + 1};
 }
 
-/// The point between a and b where the coordinate of that axis is `value`; a[axis] < value <= b[axis].
+/// Returns the point between a and b with the coordinate `value` along an axis; a[axis] < value <= b[axis].
 template <std::size_t Size>
 std::array<double, Size> point_between(const std::array<double, Size>& a, const std::array<double, Size>& b,
                                        std::size_t axis, double value) {
@@ -51,15 +51,15 @@ std::array<double, Size> point_between(const std::array<double, Size>& a, const 
     return p;
 }
 
-/// Calls use(Simplex<N − 1>) for the one to three simplices in which the plane axis = value meets a simplex whose
-/// corners are sorted along that axis; for none if no corner lies below the plane, or all do.
-/// Source: [K] 5.6.2, fig. 5.19 and 5.20.
+/// Calls use(Simplex<N − 1>) for the one to three simplices of the intersection of the plane axis = value with a
+/// simplex whose corners are sorted along that axis; for none unless the plane separates corners. Source: [K] 5.6.2,
+/// fig. 5.19 and 5.20.
 template <std::size_t Size, std::size_t N, class Use>
 void slice(const std::array<std::array<double, Size>, N>& sorted, std::size_t axis, double value, const Use& use) {
     std::size_t below = 0;
     while (below < N && sorted[below][axis] < value) ++below;
     if (below == 0 || below == N) return;
-    // The points in which edges from below to above meet the plane form a (below − 1, above − 1)-simploid.
+    // The intersections of the plane with edges from below to above form a (below − 1, above − 1)-simploid.
     std::array<std::array<std::array<double, Size>, N>, N> crossing;
     for (std::size_t i = 0; i < below; ++i)
         for (std::size_t j = below; j < N; ++j)
@@ -71,10 +71,10 @@ void slice(const std::array<std::array<double, Size>, N>& sorted, std::size_t ax
     }
 }
 
-/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at the samples of an axis that it reaches. Source:
-/// [K] 5.7.3. Differs: [K] 5.7.2 first clips simplices to the field of view, which cuts one into up to six at each of
-/// four edges. No sample lies outside, so that leaving out the slices there is the same.
-/// @param seen  for each sample, whether a slice there may hold a hogel; others are left out
+/// Calls use(value, Simplex<N − 1>) for the slices of a simplex at the samples of an axis. Source: [K] 5.7.3. Differs:
+/// [K] 5.7.2 first clips simplices to the field of view, which cuts one into up to six at each of four edges. No sample
+/// lies outside, so skipping the slices there has the same result.
+/// @param seen  for each sample, whether a slice there may contain a hogel; other samples are skipped
 template <std::size_t Size, std::size_t N, class Use>
 void slice_at_samples(std::array<std::array<double, Size>, N> simplex, std::size_t axis,
                       std::span<const std::uint8_t> seen, const Use& use) {

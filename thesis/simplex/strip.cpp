@@ -15,12 +15,12 @@ std::uint16_t index_of(const ProjectedPoint& point, std::vector<ProjectedPoint>&
     return static_cast<std::uint16_t>(index);
 }
 
-// Whether two simplices have all corners but one in common.
+// Returns whether two simplices share all corners but one.
 bool share_a_face(const Strip<4>::Corners& a, const Strip<4>::Corners& b) {
     return std::ranges::count_if(a, [&](std::uint16_t corner) { return std::ranges::count(b, corner) > 0; }) == 4;
 }
 
-// Buffer for the points of a slice, of which a thread has one at a time.
+// Buffer for the points of a slice; a thread handles one slice at a time.
 std::vector<std::array<double, 2>>& points_in_hogels() {
     thread_local std::vector<std::array<double, 2>> points;
     return points;

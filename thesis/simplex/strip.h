@@ -29,13 +29,13 @@ struct Strip {
     }
 };
 
-/// Lists each corner of some simplices once, and the simplices so that each shares all corners but one with the one
-/// before it wherever that is possible. Returns the number of strips, sequences in which it is: two for the six
+/// Lists each corner of some simplices once, and orders the simplices so that consecutive ones share all corners but
+/// one wherever possible. Returns the number of strips, the maximal sequences with this property: two for the six
 /// simplices of a (2,2)-simploid.
 std::size_t into_strips(std::span<const Simplex<4>> simplices, Strip<4>& strip);
 
-/// A strip that is sliced at rising values of one coordinate. A point where an edge meets the plane is computed once,
-/// however many simplices share the edge.
+/// Strip that is sliced at rising values of one coordinate. The intersection of an edge with the plane is computed once
+/// for all simplices that share the edge.
 template <std::size_t N>
 class SlicedStrip {
   public:
@@ -62,7 +62,7 @@ class SlicedStrip {
         if (crossings_.size() < count * count) crossings_.resize(count * count);
     }
 
-    /// The slices that the strip reaches, of the samples 0 to n − 1.
+    /// Returns the samples, of 0 to n − 1, at which the strip has slices.
     render::Span samples(std::size_t n) const { return samples_cut(points_.front()[axis_], points_.back()[axis_], n); }
 
     /// Replaces `out` by the slice at a value; values must rise. Source: [K] 5.6.2, as slice().
@@ -93,7 +93,7 @@ class SlicedStrip {
     }
 
     struct Crossing {
-        std::uint64_t slice = 0;  // of which it is
+        std::uint64_t slice = 0;  // index of its slice
         std::uint16_t point = 0;
     };
 
@@ -108,13 +108,13 @@ class SlicedStrip {
 /// Slices the simplices of one volume together, first at each V, then at each U.
 class StripSlices {
   public:
-    /// For each row and column of directions, whether hogels may see the triangle in it; see SeenDirections.
+    /// For each column and row of directions, whether hogels may see the triangle in it; see SeenDirections.
     struct Seen {
         std::span<const std::uint8_t> v, u;
     };
 
-    /// Calls use(v, u, Strip<2>) for each direction that the volume reaches and in which hogels may see the triangle.
-    /// Returns the number of slices that were made of single simplices.
+    /// Calls use(v, u, Strip<2>) for each direction in the volume in which hogels may see the triangle.
+    /// Returns the number of slices of single simplices.
     template <class Use>
     std::size_t for_each(std::span<const Simplex<4>> simplices, const Seen& seen, const Use& use) {
         if (simplices.empty()) return 0;
@@ -147,8 +147,7 @@ class StripSlices {
     SlicedStrip<3> at_every_u_;
 };
 
-/// The rows and columns of hogels that the triangles of a slice cover together; as SliceInHogels, for a slice that is
-/// convex.
+/// Rows and columns of hogels covered by the triangles of a convex slice, as SliceInHogels.
 class StripInHogels {
   public:
     explicit StripInHogels(const Strip<2>& slice);

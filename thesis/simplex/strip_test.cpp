@@ -46,7 +46,7 @@ TEST(Strip, of_a_simploid_needs_two_and_has_each_corner_once) {
     EXPECT_EQ(before, after);
 }
 
-// The slices of a strip are those of its simplices one by one.
+// The slices of a strip equal the slices of its simplices.
 TEST(Strip, slices_are_those_of_its_simplices) {
     const std::vector<Simplex<4>> simplices = volume(5);
     using Piece = std::array<ProjectedPoint, 3>;

@@ -13,20 +13,21 @@
 namespace hogel::simplex {
 namespace {
 
-// The part of a convex polygon where `side` is not negative. A point between two corners is always computed from the
-// negative to the other one, so that both sides of a clip have the same points.
+// Returns the part of a convex polygon with side(point) >= 0. A point between two corners is always computed
+// from the corner with the smaller value, so that both sides of a clip have the same points.
 template <class Point, class Side, class Interpolate>
 std::vector<Point> clip_polygon(const std::vector<Point>& polygon, const Side& side, const Interpolate& interpolate) {
-    std::vector<Point> kept;
+    std::vector<Point> clipped;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Point &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-        const double a = side(here), b = side(next);
-        if (a >= 0) kept.push_back(here);
+        const Point &current = polygon[i], &next = polygon[(i + 1) % polygon.size()];
+        const double a = side(current), b = side(next);
+        if (a >= 0) clipped.push_back(current);
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
-            kept.push_back(a < b ? interpolate(here, next, a / (a - b)) : interpolate(next, here, b / (b - a)));
+            clipped.push_back(a < b ? interpolate(current, next, a / (a - b))
+                                    : interpolate(next, current, b / (b - a)));
         }
     }
-    return kept;
+    return clipped;
 }
 
 CameraPoint point_on_line(const CameraPoint& p, const CameraPoint& q, double f) {
@@ -36,7 +37,7 @@ CameraPoint point_on_line(const CameraPoint& p, const CameraPoint& q, double f) 
 // Margin of a region around its outermost hogels, in hogels, so that a region of one hogel is not a point.
 constexpr double margin = 1e-3;
 
-// N·(P − (s, t, 0)): positive for camera points that see the front of a triangle, negative for those that see its back.
+// N·(P − (s, t, 0)): positive for camera points that see the front of a triangle, negative if they see its back.
 class Facing {
   public:
     Facing(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range)
@@ -59,7 +60,7 @@ class Facing {
     const HogelRange& range_;
 };
 
-// A point seen by a camera, before the division: right and up in its picture, the camera's (s, t), and forward.
+// Returns a point seen by a camera, before the division: right and up in the picture, the camera's (s, t), and forward.
 ProjectedPoint as_seen(const std::array<double, 3>& point, CameraPoint camera, const LightFieldGrid& grid,
                        const HogelRange& range) {
     const double s = grid.s(static_cast<double>(range.s0) + camera.s);
@@ -116,10 +117,10 @@ std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, doubl
     const auto interpolate = [near](const Point& a, const Point& b, double f) {
         return Point{a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), near};
     };
-    const std::vector<Point> kept = clip_polygon<Point>(
+    const std::vector<Point> clipped = clip_polygon<Point>(
         {triangle[0], triangle[1], triangle[2]}, [near](const Point& p) { return p[2] - near; }, interpolate);
     std::vector<DeepTriangle> triangles;
-    for (std::size_t i = 2; i < kept.size(); ++i) triangles.push_back({kept[0], kept[i - 1], kept[i]});
+    for (std::size_t i = 2; i < clipped.size(); ++i) triangles.push_back({clipped[0], clipped[i - 1], clipped[i]});
     return triangles;
 }
 
@@ -145,8 +146,8 @@ RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGri
     const auto back = [&](const CameraPoint& p) { return -front(p); };
     const double right = static_cast<double>(range.ns) - 1 + margin;
     const double bottom = static_cast<double>(range.nt) - 1 + margin;
-    const std::vector<CameraPoint> all{{-margin, -margin}, {right, -margin}, {right, bottom}, {-margin, bottom}};
-    return {clip_polygon(all, front, point_on_line), clip_polygon(all, back, point_on_line)};
+    const std::vector<CameraPoint> rectangle{{-margin, -margin}, {right, -margin}, {right, bottom}, {-margin, bottom}};
+    return {clip_polygon(rectangle, front, point_on_line), clip_polygon(rectangle, back, point_on_line)};
 }
 
 std::vector<CameraLine> split_row_at_back_face(const DeepTriangle& triangle, std::size_t row,

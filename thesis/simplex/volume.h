@@ -12,54 +12,54 @@
 
 namespace hogel::simplex {
 
-/// The coordinates of a projected point: U and V as column and row of the picture, S = s/ζ and T = t/ζ with s and t as
+/// Coordinates of a projected point: U and V as column and row of the picture, S = s/ζ and T = t/ζ with s and t as
 /// column and row of hogels relative to the tile's first, and Q = 1/ζ. Samples are at whole numbers of U, V, S/Q and
-/// T/Q. On a side of a hemicube the distance forward replaces ζ; it depends on the camera point too.
+/// T/Q. On a side of a hemicube the distance forward replaces ζ; it also depends on the camera point.
 namespace axis {
 enum : std::size_t { u, v, s, t, q };
 }
 
-/// A point of a projected volume. Affine functions of the triangle point and of the camera point, divided by ζ, are
+/// Point of a projected volume. Affine functions of the triangle point and of the camera point, divided by ζ, are
 /// linear in each other, so points in between are weighted means. Source: [K] (5.2), in units of samples.
 using ProjectedPoint = std::array<double, 5>;
 
-/// An N-simplex: the convex hull of N + 1 points, in no particular order. Source: [K] 5.6.
+/// N-simplex: the convex hull of N + 1 points, in no particular order. Source: [K] 5.6.
 template <std::size_t N>
 using Simplex = std::array<ProjectedPoint, N + 1>;
 
-/// A triangle in (x, y, ζ).
+/// Triangle in (x, y, ζ).
 using DeepTriangle = std::array<std::array<double, 3>, 3>;
 DeepTriangle deep_triangle(const ShadedScene& scene, std::size_t index);
 
-/// The smallest depth at which a perspective projection is accurate enough: a millionth of the scene's size. Throws
-/// Error(usage) naming the renderer unless the whole scene is behind the hologram plane.
+/// Returns the smallest depth at which a perspective projection is accurate enough: a millionth of the scene's size.
+/// Throws Error(usage) naming the renderer unless the whole scene is behind the hologram plane.
 double near_plane(const ShadedScene& scene, std::string_view renderer);
 
-/// The part of a triangle at depths of at least `near` > 0, as zero, one or two triangles. Source: [K] 5.7.
+/// Returns the part of a triangle at depths of at least `near` > 0, as zero, one or two triangles. Source: [K] 5.7.
 std::vector<DeepTriangle> clip_to_near_plane(const DeepTriangle& triangle, double near);
 
-/// The distance forward below which every ray of a face has a depth of less than `near`.
+/// Returns the distance forward below which every ray of a face has a depth of less than `near`.
 double min_forward_distance(const LightFieldGrid& grid, double near);
 
-/// A point of the camera plane: column and row of hogels relative to the tile's first.
+/// Point of the camera plane: column and row of hogels relative to the tile's first.
 struct CameraPoint {
     double s = 0, t = 0;
 };
 
-/// The projected corners of a triangle from `camera`, a point of the tile that starts with hogel (s0, t0) of the grid.
-/// Source: [K] (5.2).
+/// Returns the projected corners of a triangle from `camera`, a point of the tile that starts with hogel (s0, t0) of
+/// the grid. Source: [K] (5.2).
 std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint camera, const LightFieldGrid& grid,
                                       const HogelRange& range);
 
-/// The parts of a tile's rectangle of camera points that see a triangle's front and its back, separated by the line
-/// where the triangle's plane meets the camera plane. Each is empty, a polygon of three to five corners, or the whole
+/// Parts of a tile's rectangle of camera points that see a triangle's front or its back, separated by the intersection
+/// of the triangle's plane with the camera plane. Each is empty, a polygon of three to five corners, or the full
 /// rectangle. Source: [K] 5.7.1. Differs: the part that sees the back is dropped only if back faces are culled.
 struct RegionSides {
     std::vector<CameraPoint> front, back;
 };
 RegionSides split_at_back_face(const DeepTriangle& triangle, const LightFieldGrid& grid, const HogelRange& range);
 
-/// As RegionSides for one row of hogels: one or two lines of camera points.
+/// RegionSides for one row of hogels: one or two lines of camera points.
 struct CameraLine {
     CameraPoint first, last;
     bool front_visible = false;

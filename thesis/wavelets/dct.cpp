@@ -9,14 +9,14 @@
 namespace hogel::wavelets {
 namespace {
 
-using Matrix = std::array<float, dct_block * dct_block>;  // of n x n elements, rows one after the other
+using Matrix = std::array<float, dct_block * dct_block>;  // n x n elements, row-major
 
 struct Matrices {
     std::array<Matrix, dct_block + 1> forward{}, inverse{};  // by number of points
 };
 
 const Matrices& matrices() {
-    static const Matrices made = [] {
+    static const Matrices matrices = [] {
         Matrices result;
         for (std::size_t n = 1; n <= dct_block; ++n)
             for (std::size_t k = 0; k < n; ++k)
@@ -25,7 +25,7 @@ const Matrices& matrices() {
                         static_cast<float>(math::dct_element(n, k, j));
         return result;
     }();
-    return made;
+    return matrices;
 }
 
 void multiply_blocks(const std::array<Matrix, dct_block + 1>& by_points, std::size_t length, float* rows) {

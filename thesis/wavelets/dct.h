@@ -9,7 +9,7 @@ namespace hogel::wavelets {
 
 constexpr std::size_t dct_block = 8;
 
-/// The windowed DCT on lines of one length, `lane_count` lines at a time, in the layout of WaveletLine: blocks of eight
+/// Windowed DCT on lines of one length, `lane_count` lines at a time, in the layout of WaveletLine: blocks of eight
 /// samples from the start of the line (the last one may be shorter) are replaced by their orthonormal DCT-II. Frequency
 /// k of a block is stored at its sample k.
 class DctLine {

@@ -13,10 +13,10 @@ WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length)
         const std::size_t target_row = to_detail ? coarse_count_ : 0, source_row = to_detail ? 0 : coarse_count_;
         const auto targets = static_cast<std::ptrdiff_t>(to_detail ? detail_count : coarse_count_);
         const auto sources = static_cast<std::ptrdiff_t>(to_detail ? coarse_count_ : detail_count);
-        const auto reach = std::ssize(step.taps);
-        // Targets i with 0 <= i + first and i + first + reach <= sources.
+        const auto tap_count = std::ssize(step.taps);
+        // Targets i with 0 <= i + first and i + first + tap_count <= sources.
         const std::ptrdiff_t begin = std::clamp<std::ptrdiff_t>(-step.first, 0, targets);
-        const std::ptrdiff_t end = std::clamp<std::ptrdiff_t>(sources - reach - step.first + 1, begin, targets);
+        const std::ptrdiff_t end = std::clamp<std::ptrdiff_t>(sources - tap_count - step.first + 1, begin, targets);
         Step plan;
         plan.count = static_cast<std::size_t>(end - begin);
         plan.inner = {target_row + static_cast<std::size_t>(begin),
@@ -25,20 +25,20 @@ WaveletLine::WaveletLine(const Wavelet& wavelet, std::size_t length)
         const std::ptrdiff_t known = std::min<std::ptrdiff_t>(step.extension, sources);
         for (std::ptrdiff_t i = 0; i < targets; ++i) {
             if (i >= begin && i < end) continue;
-            // Taps outside the source are folded onto the samples from which it is continued.
+            // Taps outside the source are folded onto the samples that determine its continuation.
             std::vector<double> folded(static_cast<std::size_t>(sources));
-            for (std::ptrdiff_t k = 0; k < reach; ++k) {
-                const std::ptrdiff_t at = i + step.first + k;
+            for (std::ptrdiff_t k = 0; k < tap_count; ++k) {
+                const std::ptrdiff_t position = i + step.first + k;
                 const double tap = step.taps[static_cast<std::size_t>(k)];
-                if (at >= 0 && at < sources) {
-                    folded[static_cast<std::size_t>(at)] += tap;
+                if (position >= 0 && position < sources) {
+                    folded[static_cast<std::size_t>(position)] += tap;
                     continue;
                 }
-                const bool before = at < 0;
+                const bool is_before_start = position < 0;
                 const std::vector<double> weights =
-                    extrapolation(static_cast<std::size_t>(known), before ? at : sources - 1 - at);
+                    extrapolation(static_cast<std::size_t>(known), is_before_start ? position : sources - 1 - position);
                 for (std::size_t p = 0; p < weights.size(); ++p)
-                    folded[before ? p : static_cast<std::size_t>(sources) - 1 - p] += tap * weights[p];
+                    folded[is_before_start ? p : static_cast<std::size_t>(sources) - 1 - p] += tap * weights[p];
             }
             const auto nonzero = [](double value) { return value != 0; };
             const auto first = std::find_if(folded.begin(), folded.end(), nonzero);
@@ -66,9 +66,9 @@ void WaveletLine::apply(const Row& row, std::size_t count, float sign, float* ro
     }
 }
 
-void WaveletLine::set_scales(const std::vector<double>& before, const std::vector<double>& after) {
+void WaveletLine::set_scales(const std::vector<double>& is_before_start, const std::vector<double>& after) {
     for (std::size_t row = 0; row < length_; ++row) {
-        const double in = before[sample_of_row(row)], out = after[row];
+        const double in = is_before_start[sample_of_row(row)], out = after[row];
         before_[row] = {static_cast<float>(1 / in), static_cast<float>(in)};
         after_[row] = {static_cast<float>(out), static_cast<float>(1 / out)};
     }

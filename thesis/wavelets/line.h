@@ -9,10 +9,10 @@
 
 namespace hogel::wavelets {
 
-/// The number of lines that are transformed side by side.
+/// Number of lines that are transformed together.
 constexpr std::size_t lane_count = 16;
 
-/// One level of a wavelet on lines of one length, `lane_count` lines at a time, as its lifting steps with optional
+/// One level of a wavelet on lines of one length, `lane_count` lines at a time, as lifting steps with optional
 /// scales. Row k of a tile holds sample k of all lines, rows[k·lane_count + lane]; during the transform even samples
 /// come first, then the odd ones.
 class WaveletLine {
@@ -23,7 +23,7 @@ class WaveletLine {
     /// inverts both.
     void set_scales(const std::vector<double>& before, const std::vector<double>& after);
 
-    /// The sample of the line that is in a row of the tile before forward() and after inverse().
+    /// Returns the index of the line's sample in a row of the tile, before forward() and after inverse().
     std::size_t sample_of_row(std::size_t row) const {
         return row < coarse_count_ ? 2 * row : 2 * (row - coarse_count_) + 1;
     }
@@ -37,8 +37,8 @@ class WaveletLine {
         std::vector<float> taps;
     };
     struct Step {
-        Row inner;          // the first of `count` targets all of whose sources exist
-        std::size_t count;  // the others follow at distance 1
+        Row inner;          // first of `count` targets with all sources inside the line
+        std::size_t count;  // consecutive targets
         std::vector<Row> edges;
     };
     struct Scale {
@@ -52,17 +52,17 @@ class WaveletLine {
 };
 
 /// All levels of a wavelet on lines of one length, scaled so that every synthesis basis function has norm 1, also at
-/// the ends of the line: an error of a coefficient is then an error of nearly the same energy in the signal (exactly
-/// the same for orthogonal bases). In several dimensions basis functions are products of these. The number of levels is
-/// limited to that which leads to a single sample.
+/// the ends of the line. An error of a coefficient then has nearly the same energy in the signal (exactly the same for
+/// orthogonal bases). In several dimensions basis functions are products of these. The last possible level yields a
+/// single coarse sample.
 std::vector<WaveletLine> wavelet_levels(const Wavelet& wavelet, std::size_t length, int levels);
 
-/// The plain twins of WaveletLine: one level of one line without scales, directly from the definition and in double
+/// Plain twins of WaveletLine: one level of one line without scales, directly from the definition and in double
 /// precision. forward: samples in, coarse samples and then details out; inverse: the reverse.
 void forward_line_plain(const Wavelet& wavelet, std::span<double> line);
 void inverse_line_plain(const Wavelet& wavelet, std::span<double> line);
 
-/// The weights by which samples 0..count−1 of a polynomial sequence of degree < count give its value at `at`.
-std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t at);
+/// Returns the weights of samples 0..count−1 of a polynomial sequence of degree < count for its value at `position`.
+std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t position);
 
 }  // namespace hogel::wavelets

@@ -10,15 +10,15 @@ struct Halves {
     std::vector<double> coarse, detail;
 };
 
-// source[at], continued beyond its ends.
-double continued(std::span<const double> source, std::ptrdiff_t at, int extension) {
+// Returns source[position], continued beyond its ends.
+double continued(std::span<const double> source, std::ptrdiff_t position, int extension) {
     const auto count = std::ssize(source);
-    if (at >= 0 && at < count) return source[static_cast<std::size_t>(at)];
-    const bool before = at < 0;
+    if (position >= 0 && position < count) return source[static_cast<std::size_t>(position)];
+    const bool is_before_start = position < 0;
     const auto known = static_cast<std::size_t>(std::min<std::ptrdiff_t>(extension, count));
-    const std::vector<double> weights = extrapolation(known, before ? at : count - 1 - at);
+    const std::vector<double> weights = extrapolation(known, is_before_start ? position : count - 1 - position);
     double sum = 0;
-    for (std::size_t p = 0; p < known; ++p) sum += weights[p] * source[before ? p : source.size() - 1 - p];
+    for (std::size_t p = 0; p < known; ++p) sum += weights[p] * source[is_before_start ? p : source.size() - 1 - p];
     return sum;
 }
 
@@ -33,12 +33,12 @@ void lift(const LiftingStep& step, double sign, Halves& halves) {
 
 }  // namespace
 
-std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t at) {
-    std::vector<double> weights(count, 1.0);  // Lagrange polynomials at `at`
+std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t position) {
+    std::vector<double> weights(count, 1.0);  // Lagrange polynomials at `position`
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t q = 0; q < count; ++q)
             if (q != p)
-                weights[p] *= (static_cast<double>(at) - static_cast<double>(q)) /
+                weights[p] *= (static_cast<double>(position) - static_cast<double>(q)) /
                               (static_cast<double>(p) - static_cast<double>(q));
     return weights;
 }

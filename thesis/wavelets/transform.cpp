@@ -16,7 +16,7 @@ namespace {
 
 enum class Direction { forward, inverse };
 
-// The lines along one axis in a box at the origin of the array, numbered with the last other axis fastest.
+// Lines along one axis in a box at the origin of the array; their indices increase fastest along the last other axis.
 class Lines {
   public:
     Lines(std::vector<std::size_t> box, std::vector<std::size_t> strides, std::size_t axis)
@@ -26,7 +26,7 @@ class Lines {
     }
     std::size_t count() const { return count_; }
     std::size_t step() const { return strides_[axis_]; }
-    // Index of the first element of a line.
+    // Returns the index of the first element of a line.
     std::size_t start(std::size_t line) const {
         std::size_t offset = 0;
         for (std::size_t axis = box_.size(); axis-- > 0;) {
@@ -41,7 +41,7 @@ class Lines {
     std::size_t axis_, count_ = 1;
 };
 
-// Transforms up to lane_count lines, given by their first elements.
+// Transforms up to lane_count lines, given by the indices of their first elements.
 template <class Plan>
 void transform_tile(const Plan& plan, Direction direction, std::span<const std::size_t> starts, std::size_t step,
                     float* tile, float* elements) {

@@ -10,19 +10,19 @@
 
 namespace hogel::wavelets {
 
-/// A transform by name: a wavelet, or the windowed 8-point DCT. Made by transform(); cheap to copy.
+/// Named transform: a wavelet, or the windowed 8-point DCT. Created by transform(); cheap to copy.
 class Transform {
   public:
     std::string_view name() const { return wavelet_ ? wavelet_->name : "dct8"; }
     bool is_wavelet() const { return wavelet_ != nullptr; }
-    /// The wavelet. Must not be called for the DCT.
+    /// Returns the wavelet. Must not be called for the DCT.
     const Wavelet& wavelet() const { return *wavelet_; }
 
     /// Transforms a row-major array of the pyramid's shape in place. The DCT transforms the axes of all groups once,
     /// regardless of their levels. Works on all threads; the result does not depend on their number. Cost: O(size ·
-    /// axes). Throws Error(usage) if the number of elements is not the pyramid's.
+    /// axes). Throws Error(usage) if the number of elements differs from the pyramid's.
     void forward(const Pyramid& pyramid, std::span<float> elements) const;
-    /// The inverse of forward(), up to rounding.
+    /// Inverts forward(), up to rounding.
     void inverse(const Pyramid& pyramid, std::span<float> elements) const;
 
   private:
@@ -31,11 +31,11 @@ class Transform {
     const Wavelet* wavelet_;  // null: the DCT
 };
 
-/// The transform of that name: haar|d4|d6|ai13|ai31|ai33|i22|i24|i42|i44|cdf31|cdf33|cdf42|cdf44|cdf97|dct8. Throws
-/// Error(usage) with that list for any other name.
+/// Returns the transform of a name: haar|d4|d6|ai13|ai31|ai33|i22|i24|i42|i44|cdf31|cdf33|cdf42|cdf44|cdf97|dct8.
+/// Throws Error(usage) with that list for any other name.
 Transform transform(std::string_view name);
 
-/// All names, in that order.
+/// Returns all names, in this order.
 std::vector<std::string_view> transform_names();
 
 }  // namespace hogel::wavelets

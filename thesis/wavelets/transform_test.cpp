@@ -31,8 +31,8 @@ double max_difference(std::span<const float> a, std::span<const float> b) {
     return max_found;
 }
 
-// The coefficients of one level and of all levels of a line by the plain twin, each multiplied by the measured norm of
-// its basis function.
+// Returns the coefficients of one level and of all levels of a line by the plain twin, each multiplied by the measured
+// norm of its basis function.
 std::vector<double> plain_inverse(const Wavelet& wavelet, int levels, std::vector<double> line) {
     for (int level = levels - 1; level >= 0; --level)
         inverse_line_plain(wavelet, std::span(line).first(((line.size() - 1) >> level) + 1));

@@ -6,13 +6,12 @@
 namespace hogel::wavelets {
 namespace {
 
-// The wavelets. For each step: the half that it changes, the offset of the first tap, the taps, and the number of
-// samples from which the source is continued beyond an end. A step that reads details which already vanish for
-// polynomials may continue them arbitrarily; any other step must use as many samples as the order to be kept at the
-// ends. With filters of this length, 3 or 4 samples make the ends so ill-conditioned that the loss exceeds the gain:
-// with a 4D array of 16x16x64x64 with edges, at 0.05 bits each, i42 gave 19.4 dB with 4, 26.6 with 2 and 26.7 with 1,
-// cdf97 21.0, 26.8 and 27.0, d6 22.8, 24.9 and 25.1; at 0.25 bits 2 was best for nearly all. For ai33 3 and 2 were
-// within 0.2 dB.
+// Returns the wavelets. For each step: the half that it changes, the offset of the first tap, the taps, and the number
+// of samples that determine the continuation beyond an end. A step may continue details arbitrarily if they already
+// vanish for polynomials; any other step needs as many samples as the order to be kept at the ends. With filters of
+// this length, 3 or 4 samples make the ends so ill-conditioned that the loss exceeds the gain: with a 4D array of
+// 16x16x64x64 with edges, at 0.05 bits each, i42 gave 19.4 dB with 4, 26.6 with 2 and 26.7 with 1, cdf97 21.0, 26.8
+// and 27.0, d6 22.8, 24.9 and 25.1; at 0.25 bits 2 was best for nearly all. For ai33 3 and 2 were within 0.2 dB.
 std::vector<Wavelet> table() {
     constexpr Half detail = Half::detail, coarse = Half::coarse;
     const double r3 = std::sqrt(3.0);
@@ -62,8 +61,8 @@ std::vector<Wavelet> table() {
 }  // namespace
 
 std::span<const Wavelet> wavelets() {
-    static const std::vector<Wavelet> all = table();
-    return all;
+    static const std::vector<Wavelet> wavelets = table();
+    return wavelets;
 }
 
 }  // namespace hogel::wavelets

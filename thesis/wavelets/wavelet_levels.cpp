@@ -7,11 +7,11 @@
 namespace hogel::wavelets {
 namespace {
 
-// Basis functions farther than this from both ends hardly reach them and have equal norms.
-constexpr std::size_t reach = 16;
+// Basis functions at a larger distance (rows) from both ends hardly overlap the ends and have equal norms.
+constexpr std::size_t end_rows = 16;
 
-// The norms of the synthesis functions of all rows of the last of these levels (coarse samples, then details), measured
-// as impulse responses of the unscaled levels, a tile at a time.
+// Returns the norms of the synthesis functions of all rows of the last level (coarse samples, then details),
+// measured as impulse responses of the unscaled levels, one tile at a time.
 std::vector<double> synthesis_norms(std::span<const WaveletLine> levels) {
     const WaveletLine& last = levels.back();
     const std::size_t length = last.length(), coarse_count = (length + 1) / 2;
@@ -21,8 +21,8 @@ std::vector<double> synthesis_norms(std::span<const WaveletLine> levels) {
     for (std::size_t half = 0; half < 2; ++half) {
         const std::size_t begin = half == 0 ? 0 : coarse_count, end = half == 0 ? coarse_count : length;
         for (std::size_t row = begin; row < end; ++row) {
-            const bool inner = row >= begin + reach && row + reach < end;
-            stands_for[row] = inner ? begin + reach : row;
+            const bool inner = row >= begin + end_rows && row + end_rows < end;
+            stands_for[row] = inner ? begin + end_rows : row;
             if (stands_for[row] == row) measured.push_back(row);
         }
     }

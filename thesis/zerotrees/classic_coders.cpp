@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coders of [K] chapter 4: a transform over all four dimensions of each colour channel of a tile, whose
-// coefficients go into a zerotree coder or, for the windowed DCT, into JPEG in four dimensions.
-// Bytes of a tile: for each channel the length as 32 bits, and the coder's stream.
+// Coders of [K] chapter 4: a transform over all four dimensions of each colour channel of a tile, followed by a
+// zerotree coder or, for the windowed DCT, by JPEG in four dimensions. Bytes of a tile: for each channel the length in
+// 32 bits, then the coder's stream.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t samples_of_tile = std::size_t{1} << 24;
 
-// The quantity that is coded, and the dimensions that are transformed together.
+// Coded quantity, and the dimensions that are transformed together.
 enum class Content {
     radiance,   // L, all four dimensions interleaved
     amplitude,  // √L, hogels and directions independently
@@ -78,8 +78,8 @@ class ClassicCoder : public TileCoder {
     void decode_coefficients(std::span<const std::uint8_t> bytes, LightFieldTile& tile) const override {
         if (!directional()) return TileCoder::decode_coefficients(bytes, tile);
         // Inverts only the transform of the hogels.
-        const wavelets::Pyramid whole = pyramid_of(tile);
-        decode(bytes, wavelets::Pyramid(whole.shape(), {whole.groups().front()}), tile);
+        const wavelets::Pyramid pyramid = pyramid_of(tile);
+        decode(bytes, wavelets::Pyramid(pyramid.shape(), {pyramid.groups().front()}), tile);
     }
 
   protected:
@@ -97,7 +97,7 @@ class ClassicCoder : public TileCoder {
                                                      double step) const = 0;
     virtual void decode_channel(const wavelets::Pyramid& pyramid, std::span<const std::uint8_t> code,
                                 std::span<float> values) const = 0;
-    // Replaces values by those that decode_channel() restores from their code.
+    // Replaces values by the values that decode_channel() restores from their code.
     virtual void round_channel(const wavelets::Pyramid& pyramid, std::span<const std::uint8_t> code,
                                std::span<float> values) const {
         decode_channel(pyramid, code, values);
@@ -120,7 +120,7 @@ class ClassicCoder : public TileCoder {
         if (reader.left() > 0) reader.damaged("bytes are left over");
         restore(back, tile, [&](std::size_t c, std::span<float> values) { decode_channel(pyramid, codes[c], values); });
     }
-    // Inverts the transform of the coefficients that make(channel, values) fills in, and combines the colours.
+    // Inverts the transform of the coefficients from make(channel, values), and combines the colours.
     template <class Make>
     void restore(const wavelets::Pyramid& back, LightFieldTile& tile, Make&& make) const {
         work::parallel_for(tile.radiance.extent(0), [&](std::size_t c) {
@@ -134,18 +134,18 @@ class ClassicCoder : public TileCoder {
         if (content_ == Content::amplitude)
             for (float& value : tile.radiance.elements()) value *= value;
     }
-    // Cuts embedded codes by equal fractions, so that they take `max_bytes` bytes including their lengths.
+    // Truncates embedded codes by equal fractions to `max_bytes` bytes in total, including their lengths.
     static void shorten(std::vector<std::vector<std::uint8_t>>& codes, std::size_t max_bytes) {
-        std::size_t all = 0;
-        for (const auto& code : codes) all += code.size();
+        std::size_t total = 0;
+        for (const auto& code : codes) total += code.size();
         const std::size_t lengths = 4 * codes.size();
-        if (max_bytes == no_limit || all + lengths <= max_bytes) return;
+        if (max_bytes == no_limit || total + lengths <= max_bytes) return;
         std::size_t budget = max_bytes > lengths ? max_bytes - lengths : 0;
         for (auto& code : codes) {
-            const std::size_t size = code.size(), kept = all > 0 ? budget * size / all : 0;
-            code.resize(kept);
-            all -= size;
-            budget -= kept;
+            const std::size_t size = code.size(), new_size = total > 0 ? budget * size / total : 0;
+            code.resize(new_size);
+            total -= size;
+            budget -= new_size;
         }
     }
 
@@ -154,7 +154,7 @@ class ClassicCoder : public TileCoder {
     Content content_;
 };
 
-// The given step, or the smallest one whose levels a coder can represent if that is larger.
+// Returns the given step, or the smallest step with levels that a coder can represent if this is larger.
 double usable_step(std::span<const float> values, double step) {
     return std::max(step, static_cast<double>(coding::max_magnitude(values)) * 0x1p-29);
 }
@@ -193,7 +193,7 @@ class ThreePassCoder final : public ClassicCoder, public codec::CountsMagnitudes
 class EzwCoder final : public ClassicCoder {
   public:
     using ClassicCoder::ClassicCoder;
-    // Codes may be empty, so the minimum is that of their lengths.
+    // Codes may be empty, so the minimum is the size of their lengths.
     std::optional<std::size_t> min_bytes(const LightFieldGrid& grid) const override {
         return grid.channels * sizeof(std::uint32_t);
     }

@@ -30,7 +30,7 @@ struct EzwModels {
     }
 };
 
-// Twice the magnitude in the middle of a coefficient's interval; it is an integer.
+// Returns twice the magnitude in the middle of the interval of a coefficient found in this plane, an integer.
 std::uint32_t found_at(int plane) { return 3u << plane; }
 std::uint32_t refined(std::uint32_t twice, bool bit, int plane) {
     return bit ? twice + (1u << plane) : twice - (1u << plane);
@@ -74,8 +74,8 @@ class EzwEncoding {
     void now_known(std::size_t index, std::uint32_t twice) {
         if (!limit_.sqnr) return;
         const double magnitude = std::abs(values_[index]);
-        const double before = magnitude - twice_[index] * half_unit_, after = magnitude - twice * half_unit_;
-        error_ += after * after - before * before;
+        const double old_error = magnitude - twice_[index] * half_unit_, new_error = magnitude - twice * half_unit_;
+        error_ += new_error * new_error - old_error * old_error;
         twice_[index] = twice;
     }
 

@@ -13,16 +13,16 @@ namespace hogel::zerotrees {
 
 enum class EzwSymbol { positive, negative, zerotree, isolated };
 
-// The context of a symbol.
+// Context of a symbol.
 struct EzwContext {
     bool leaf;            // a leaf, which cannot be an isolated zero
-    bool not_a_zerotree;  // its subtree is known to hold a found coefficient, so it cannot be a zerotree
+    bool not_a_zerotree;  // its subtree has a found coefficient, so it cannot be a zerotree
     bool parent_found;
     bool previous_found;  // whether the previous coefficient of this pass was found
 };
 
-// The passes of EZW over integer magnitudes of `planes` bits, shared by encoder and decoder. Threshold T is 2^plane: a
-// magnitude m in (T, 2T] on the scale of the values is an integer with floor(log2) = plane.
+// Runs the passes of EZW over integer magnitudes of `planes` bits, shared by encoder and decoder. Threshold T is
+// 2^plane: a magnitude m in (T, 2T] on the scale of the values is an integer with floor(log2) = plane.
 // coder.symbol(context, index, plane) writes or reads a symbol and returns it; coder.refine(index, plane) writes or
 // reads the bit of that plane; coder.full() stops the passes.
 template <class Coder>
@@ -63,8 +63,8 @@ class EzwMagnitudes {
         : magnitudes_(std::move(magnitudes)), negative_(std::move(negative)), subtree_bits_(forest.size()) {
         for (auto band = forest.bands().rbegin(); band != forest.bands().rend(); ++band)
             forest.for_each(*band, [&](std::size_t index, std::size_t parent) {
-                const auto own = static_cast<std::uint8_t>(std::bit_width(magnitudes_[index]));
-                subtree_bits_[index] = std::max(subtree_bits_[index], own);
+                const auto bits = static_cast<std::uint8_t>(std::bit_width(magnitudes_[index]));
+                subtree_bits_[index] = std::max(subtree_bits_[index], bits);
                 if (parent != Forest::no_parent)
                     subtree_bits_[parent] = std::max(subtree_bits_[parent], subtree_bits_[index]);
             });

@@ -11,31 +11,31 @@
 namespace hogel::zerotrees {
 namespace {
 
-// The extent of a band along one axis.
+// Extent of a band along one axis.
 struct Side {
     std::size_t begin, extent;
-    std::vector<std::size_t> parents;  // for each position in the band, that of the parent along the axis
+    std::vector<std::size_t> parents;  // [position in the band]: position of the parent along the axis
 };
 
 // A band of one group of axes: one Side per axis.
 struct GroupBand {
     std::vector<Side> sides;
     int depth;
-    std::size_t parent;  // index of the parent band in the group; for the coarse samples their own index
+    std::size_t parent;  // index of the parent band in the group; coarse samples are their own parent
 };
 
-// Positions of the parents of a row of children: each parent has two, the last one has the remainder.
+// Returns the positions of the parents of a row of children: each parent has two children, the last one the remainder.
 std::vector<std::size_t> halved(std::size_t children, std::size_t begin, std::size_t parents) {
-    std::vector<std::size_t> places(children);
-    for (std::size_t i = 0; i < children; ++i) places[i] = begin + std::min(i / 2, parents - 1);
-    return places;
+    std::vector<std::size_t> positions(children);
+    for (std::size_t i = 0; i < children; ++i) positions[i] = begin + std::min(i / 2, parents - 1);
+    return positions;
 }
 
 std::vector<GroupBand> bands_of_group(const wavelets::Pyramid& pyramid, const wavelets::AxisGroup& group) {
     const std::size_t axes = group.axes.size();
     const auto extent = [&](std::size_t a, int level) { return pyramid.coarse_extent(group.axes[a], level); };
-    // The orientation of a band is the set of axes, as bits, along which it holds details. The set of axes that a level
-    // splits:
+    // The orientation of a band is the set of axes, as bits, along which it has details. halving() returns the set of
+    // axes that a level splits.
     const auto halving = [&](int level) {
         std::size_t set = 0;
         for (std::size_t a = 0; a < axes; ++a)
@@ -113,7 +113,8 @@ Forest::Forest(const wavelets::Pyramid& pyramid) : strides_(pyramid.strides()), 
                 const std::size_t axis = groups[g].axes[a];
                 band.extent[axis] = part.sides[a].extent;
                 band.origin += part.sides[a].begin * strides_[axis];
-                for (std::size_t place : part.sides[a].parents) band.parents[axis].push_back(place * strides_[axis]);
+                for (std::size_t position : part.sides[a].parents)
+                    band.parents[axis].push_back(position * strides_[axis]);
             }
         }
         if (band.depth > 0) has_children[parent] = true;

@@ -37,7 +37,7 @@ void check_jpeg4d_size(const wavelets::Pyramid& pyramid, std::size_t size) {
                     fmt::format("jpeg4d: {} values given, expected the {} of the pyramid", size, pyramid.size()));
 }
 
-// The largest level of all values.
+// Returns the largest level of all values.
 double max_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
     double max_steps = 0;
     const auto min_magnitudes = min_values(blocks, quantisation);
@@ -45,7 +45,7 @@ double max_level(const Blocks& blocks, std::span<const float> values, const Quan
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
         for_each_large(kind, &values[block.origin], min_magnitudes[block.kind], [&](std::size_t entry, float value) {
-            max_steps = std::max(max_steps, std::abs(value) / quantisation.steps[kind.whole[entry]]);
+            max_steps = std::max(max_steps, std::abs(value) / quantisation.steps[kind.full_index[entry]]);
         });
     }
     return std::floor(max_steps + (1 - quantisation.round_up));
@@ -69,21 +69,21 @@ std::int32_t read_level(coding::ArithmeticDecoder& decoder, LevelModels& models,
     return negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
 }
 
-// Calls take(position, level) for the levels of a block of `count` entries that are not zero. Returns false if the
+// Calls take(position, level) for the nonzero levels of a block of `count` entries. Returns false if the
 // tuples exceed the block.
 template <class Take>
 bool read_block(coding::ArithmeticDecoder& decoder, LevelModels& models, std::size_t count, Take&& take) {
-    for (std::size_t at = 0; at < count && !decoder.ended(); ++at) {
+    for (std::size_t position = 0; position < count && !decoder.ended(); ++position) {
         const auto symbol = static_cast<int>(decoder.symbol(models.tuples));
         const int bits = symbol / (z_max + 1), zeros = symbol % (z_max + 1);
         if (bits == 0 && zeros == 0) return true;
         if (bits == 0) {
-            at += static_cast<std::size_t>(zeros) - 1;  // the loop adds one more
+            position += static_cast<std::size_t>(zeros) - 1;  // the loop adds one more
             continue;
         }
-        at += static_cast<std::size_t>(zeros);
-        if (at >= count) return false;
-        take(at, read_level(decoder, models, bits));
+        position += static_cast<std::size_t>(zeros);
+        if (position >= count) return false;
+        take(position, read_level(decoder, models, bits));
     }
     return true;
 }
@@ -101,27 +101,27 @@ std::vector<std::uint8_t> jpeg4d_encode(const wavelets::Pyramid& pyramid, std::s
     };
     if (!(stored_scale > 0) || !std::isfinite(stored_scale)) impossible();
     const Blocks blocks(pyramid);
-    bool own = table == QuantisationTable::own;
+    bool has_own_table = table == QuantisationTable::own;
     Exponents exponents;
     Quantisation quantisation = jpegs_quantisation(stored_scale, blocks.axes());
-    if (own) {
+    if (has_own_table) {
         exponents.assign(quantisation.steps.size(), 0);
         quantisation = own_quantisation(stored_scale, exponents);
     }
     double largest = max_level(blocks, values, quantisation);
     if (largest >= std::ldexp(1.0, b_limit)) impossible();
-    if (own && largest > 0) {
+    if (has_own_table && largest > 0) {
         exponents = choose_exponents(blocks, values, stored_scale);
         quantisation = own_quantisation(stored_scale, exponents);
         largest = max_level(blocks, values, quantisation);
     }
-    own = own && largest > 0;  // if all values are zero, no table is needed
+    has_own_table = has_own_table && largest > 0;  // if all values are zero, no table is needed
     const int b_max = std::bit_width(static_cast<std::uint32_t>(largest));
     std::vector<std::uint8_t> bytes;
     put_float(bytes, stored_scale);
-    bytes.push_back(static_cast<std::uint8_t>(b_max | (own ? own_table : 0)));
+    bytes.push_back(static_cast<std::uint8_t>(b_max | (has_own_table ? own_table : 0)));
     coding::ArithmeticEncoder encoder;
-    if (own) write_exponents(encoder, blocks, exponents);
+    if (has_own_table) write_exponents(encoder, blocks, exponents);
     LevelModels models(b_max);
     SparseLevels levels;
     const auto min_magnitudes = min_values(blocks, quantisation);
@@ -141,19 +141,19 @@ std::vector<std::uint8_t> jpeg4d_encode(const wavelets::Pyramid& pyramid, std::s
 
 void jpeg4d_decode(const wavelets::Pyramid& pyramid, std::span<const std::uint8_t> bytes, std::span<float> values) {
     check_jpeg4d_size(pyramid, values.size());
-    const auto damaged = [](const char* what) {
-        throw Error(ErrorCode::bad_input, fmt::format("jpeg4d stream: {}, expected a whole undamaged one", what));
+    const auto damaged = [](const char* problem) {
+        throw Error(ErrorCode::bad_input, fmt::format("jpeg4d stream: {}, expected a whole undamaged one", problem));
     };
     if (bytes.size() < jpeg4d_header_bytes) damaged("it ends within its header");
     const double scale = get_float(bytes);
     if (!(scale > 0) || !std::isfinite(scale)) damaged("its scale is not a positive number");
-    const bool own = (bytes[4] & own_table) != 0;
+    const bool has_own_table = (bytes[4] & own_table) != 0;
     const int b_max = bytes[4] & ~own_table;
     if (b_max > b_limit) damaged("it has levels of more than 30 bits");
     const Blocks blocks(pyramid);
     coding::ArithmeticDecoder decoder(bytes.subspan(jpeg4d_header_bytes));
     Quantisation quantisation = jpegs_quantisation(scale, blocks.axes());
-    if (own) {
+    if (has_own_table) {
         Exponents exponents;
         if (!read_exponents(decoder, blocks, exponents)) damaged("its quantisation table is damaged");
         quantisation = own_quantisation(scale, exponents);
@@ -163,12 +163,13 @@ void jpeg4d_decode(const wavelets::Pyramid& pyramid, std::span<const std::uint8_
     for (std::size_t number = 0; number < blocks.count(); ++number) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
-        const bool whole = read_block(decoder, models, kind.offsets.size(), [&](std::size_t place, std::int32_t level) {
-            const std::size_t entry = kind.entry[place];
-            const double step = quantisation.steps[kind.whole[entry]];
-            values[block.origin + kind.offsets[entry]] = static_cast<float>(step * level);
-        });
-        if (!whole) damaged("a run of zeros exceeds a block");
+        const bool is_complete =
+            read_block(decoder, models, kind.offsets.size(), [&](std::size_t position, std::int32_t level) {
+                const std::size_t entry = kind.entry[position];
+                const double step = quantisation.steps[kind.full_index[entry]];
+                values[block.origin + kind.offsets[entry]] = static_cast<float>(step * level);
+            });
+        if (!is_complete) damaged("a run of zeros exceeds a block");
         if (decoder.ended()) damaged("it ends too early or is damaged");
     }
     if (!decoder.all_read()) damaged("bytes are left over");

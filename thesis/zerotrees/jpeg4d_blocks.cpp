@@ -43,10 +43,11 @@ std::vector<Frequency> zigzag(std::size_t axes) {
     return order;
 }
 
-std::size_t place_in_block(const Frequency& frequency) {
-    std::size_t place = 0;
-    for (const std::size_t along : frequency) place = place * wavelets::dct_block + along;
-    return place;
+std::size_t index_in_block(const Frequency& frequency) {
+    std::size_t position = 0;
+    for (const std::size_t frequency_along_axis : frequency)
+        position = position * wavelets::dct_block + frequency_along_axis;
+    return position;
 }
 
 double table_entry(const Frequency& frequency) {
@@ -61,7 +62,7 @@ Quantisation jpegs_quantisation(double scale, std::size_t axes) {
     const std::vector<Frequency> order = zigzag(axes);
     Quantisation quantisation{std::vector<double>(order.size()), 0.5};
     for (const Frequency& frequency : order)
-        quantisation.steps[place_in_block(frequency)] = scale * table_entry(frequency);
+        quantisation.steps[index_in_block(frequency)] = scale * table_entry(frequency);
     return quantisation;
 }
 
@@ -69,7 +70,8 @@ std::vector<std::vector<float>> min_values(const Blocks& blocks, const Quantisat
     std::vector<std::vector<float>> min_magnitudes;
     for (const Blocks::Kind& kind : blocks.kinds()) {
         min_magnitudes.emplace_back();
-        for (const std::uint16_t whole : kind.whole) min_magnitudes.back().push_back(quantisation.min_magnitude(whole));
+        for (const std::uint16_t full_index : kind.full_index)
+            min_magnitudes.back().push_back(quantisation.min_magnitude(full_index));
     }
     return min_magnitudes;
 }
@@ -78,8 +80,8 @@ void quantise_block(const Blocks::Kind& kind, const float* block, std::span<cons
                     const Quantisation& quantisation, SparseLevels& levels) {
     levels.clear();
     for_each_large(kind, block, min_magnitudes, [&](std::size_t entry, float value) {
-        const std::int32_t level = quantisation.level(value, kind.whole[entry]);
-        if (level != 0) levels.set(kind.place[entry], level);
+        const std::int32_t level = quantisation.level(value, kind.full_index[entry]);
+        if (level != 0) levels.set(kind.position[entry], level);
     });
 }
 
@@ -114,9 +116,9 @@ Blocks::Kind Blocks::make_kind(const std::vector<std::size_t>& extents, const st
     for (const std::size_t extent : extents) entries *= extent;
     Kind kind;
     kind.offsets.resize(entries);
-    for (std::vector<std::uint16_t>* list : {&kind.place, &kind.entry, &kind.whole}) list->resize(entries);
+    for (std::vector<std::uint16_t>* list : {&kind.position, &kind.entry, &kind.full_index}) list->resize(entries);
     if (!axes_.empty() && strides_[axes_.back()] == 1) kind.run = extents.back();
-    std::uint16_t place = 0;
+    std::uint16_t position = 0;
     for (const Frequency& frequency : order) {
         std::size_t entry = 0, offset = 0;
         Frequency comparable;
@@ -129,9 +131,9 @@ Blocks::Kind Blocks::make_kind(const std::vector<std::size_t>& extents, const st
         }
         if (!inside) continue;
         kind.offsets[entry] = offset;
-        kind.whole[entry] = static_cast<std::uint16_t>(place_in_block(comparable));
-        kind.place[entry] = place;
-        kind.entry[place++] = static_cast<std::uint16_t>(entry);
+        kind.full_index[entry] = static_cast<std::uint16_t>(index_in_block(comparable));
+        kind.position[entry] = position;
+        kind.entry[position++] = static_cast<std::uint16_t>(entry);
     }
     return kind;
 }

@@ -15,7 +15,7 @@ constexpr int candidates = 13;             // steps up to 8 times the scale
 constexpr std::size_t max_sampled = 4096;  // blocks
 constexpr std::size_t max_bits = 31;
 
-// The expected exponent of a frequency: the mean, rounded down, of those of frequencies one lower along an axis.
+// Expected exponent of a frequency: the mean, rounded down, of the exponents of frequencies one lower along an axis.
 class Prediction {
   public:
     explicit Prediction(const Exponents& exponents) : exponents_(exponents) {}
@@ -24,7 +24,7 @@ class Prediction {
         std::size_t step = 1;
         for (std::size_t axis = frequency.size(); axis-- > 0; step *= wavelets::dct_block)
             if (frequency[axis] > 0) {
-                sum += exponents_[place_in_block(frequency) - step];
+                sum += exponents_[index_in_block(frequency) - step];
                 ++count;
             }
         return count > 0 ? sum / count : 0;
@@ -34,7 +34,7 @@ class Prediction {
     const Exponents& exponents_;
 };
 
-// Models of a difference from the prediction: whether it is not zero (context: that of the previous frequency), its
+// Models of a difference from the prediction: whether it is nonzero (context: the same of the previous frequency), its
 // sign, and its size in unary.
 struct DifferenceModels {
     std::array<coding::BitModel, 2> differs;
@@ -42,44 +42,44 @@ struct DifferenceModels {
     std::array<coding::BitModel, max_exponent + 1> more;
 };
 
-// Estimated bits of a difference.
+// Returns the estimated bits of a difference.
 double bits_of_difference(int difference) { return difference == 0 ? 0.2 : 4 + std::abs(difference); }
 
 std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }
 
-// If there are more than max_sampled blocks, only every n-th one is sampled.
+// Returns the stride n of sampled blocks; n > 1 if there are more than max_sampled blocks.
 std::size_t stride_of(const Blocks& blocks) { return (blocks.count() + max_sampled - 1) / max_sampled; }
 
-// Estimated cost of a level in bits, by the number of its bits: the level's bits plus the mean cost of the tuples of
-// such levels and of the zeros before them, from their frequencies when all steps are equal.
+// Estimated cost of a level in bits, by its number of bits: the level's bits plus the mean cost of its tuple and of the
+// zeros before it, from the frequencies of tuples with equal steps.
 class Costs {
   public:
-    Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& even) {
-        const auto min_magnitudes = min_values(blocks, even);
-        std::vector<double> seen(Tuple{z_max, max_bits}.symbol() + 1);
-        double all = 0;
+    Costs(const Blocks& blocks, std::span<const float> values, const Quantisation& uniform) {
+        const auto min_magnitudes = min_values(blocks, uniform);
+        std::vector<double> counts(Tuple{z_max, max_bits}.symbol() + 1);
+        double total = 0;
         SparseLevels levels;
         for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
             const Blocks::Block block = blocks[number];
-            quantise_block(blocks.kind(block), &values[block.origin], min_magnitudes[block.kind], even, levels);
+            quantise_block(blocks.kind(block), &values[block.origin], min_magnitudes[block.kind], uniform, levels);
             for_each_tuple(levels, blocks.kind(block).offsets.size(), [&](const Tuple& tuple, std::int32_t) {
-                ++seen[tuple.symbol()];
-                ++all;
+                ++counts[tuple.symbol()];
+                ++total;
             });
         }
-        const double zeros = seen[Tuple{z_max, 0}.symbol()];
+        const double zeros = counts[Tuple{z_max, 0}.symbol()];
         double levels_seen = 0;
         for (int bits = 1; bits <= static_cast<int>(max_bits); ++bits) {
             double count = 0, sum = 0;
-            for (int before = 0; before <= z_max; ++before) {
-                const double n = seen[Tuple{before, bits}.symbol()];
+            for (int zeros_before = 0; zeros_before <= z_max; ++zeros_before) {
+                const double n = counts[Tuple{zeros_before, bits}.symbol()];
                 count += n;
-                if (n > 0) sum += n * std::log2(all / n);
+                if (n > 0) sum += n * std::log2(total / n);
             }
             levels_seen += count;
-            of_bits_[static_cast<std::size_t>(bits)] = bits + (count > 0 ? sum / count : std::log2(all + 1));
+            of_bits_[static_cast<std::size_t>(bits)] = bits + (count > 0 ? sum / count : std::log2(total + 1));
         }
-        const double for_zeros = zeros > 0 && levels_seen > 0 ? zeros * std::log2(all / zeros) / levels_seen : 0;
+        const double for_zeros = zeros > 0 && levels_seen > 0 ? zeros * std::log2(total / zeros) / levels_seen : 0;
         for (double& cost : of_bits_) cost += for_zeros;
     }
     double operator()(std::uint32_t magnitude) const { return of_bits_[bits_of(magnitude)]; }
@@ -88,7 +88,7 @@ class Costs {
     std::array<double, max_bits + 1> of_bits_{};
 };
 
-// [frequency of a whole block][candidate step]: distortion + λ · bits of its levels.
+// [frequency of a full block][candidate step]: distortion + λ · bits of its levels.
 using Prices = std::vector<std::array<double, candidates>>;
 
 Prices prices(const Blocks& blocks, std::span<const float> values, double scale, const Costs& costs) {
@@ -98,13 +98,13 @@ Prices prices(const Blocks& blocks, std::span<const float> values, double scale,
     const auto min_magnitudes = min_values(blocks, finest);
     const double price = lambda * scale * scale, part = 1 / static_cast<double>(stride_of(blocks));
     Prices result(finest.steps.size(), std::array<double, candidates>{});
-    // Values whose level is zero with every candidate are left out, because their distortion is the same.
+    // Values with level zero for every candidate are skipped, because their distortion is always the same.
     for (std::size_t number = 0; number < blocks.count(); number += stride_of(blocks)) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
         for_each_large(kind, &values[block.origin], min_magnitudes[block.kind], [&](std::size_t entry, float value) {
             const double magnitude = std::abs(value);
-            auto& sums = result[kind.whole[entry]];
+            auto& sums = result[kind.full_index[entry]];
             for (std::size_t e = 0; e < candidates; ++e) {
                 const auto level = static_cast<std::uint32_t>(magnitude / steps[e] + (1 - round_up));
                 const double error = magnitude - level * steps[e];
@@ -130,14 +130,14 @@ Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, 
     const Prediction predict(exponents);
     for (const Frequency& frequency : blocks.frequencies()) {
         const int expected = predict(frequency);
-        const std::size_t place = place_in_block(frequency);
+        const std::size_t index = index_in_block(frequency);
         double min_price = std::numeric_limits<double>::infinity();
         for (int e = 0; e < candidates; ++e) {
             const double price =
-                of[place][static_cast<std::size_t>(e)] + lambda * scale * scale * bits_of_difference(e - expected);
+                of[index][static_cast<std::size_t>(e)] + lambda * scale * scale * bits_of_difference(e - expected);
             if (price >= min_price) continue;
             min_price = price;
-            exponents[place] = static_cast<std::uint8_t>(e);
+            exponents[index] = static_cast<std::uint8_t>(e);
         }
     }
     return exponents;
@@ -148,7 +148,7 @@ void write_exponents(coding::ArithmeticEncoder& encoder, const Blocks& blocks, c
     const Prediction predict(exponents);
     bool differed = false;
     for (const Frequency& frequency : blocks.frequencies()) {
-        const int difference = exponents[place_in_block(frequency)] - predict(frequency);
+        const int difference = exponents[index_in_block(frequency)] - predict(frequency);
         encoder.bit(models.differs[differed], difference != 0);
         differed = difference != 0;
         if (!differed) continue;
@@ -173,7 +173,7 @@ bool read_exponents(coding::ArithmeticDecoder& decoder, const Blocks& blocks, Ex
             exponent += below ? -size : size;
         }
         if (decoder.ended() || exponent < 0 || exponent > max_exponent) return false;
-        exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(exponent);
+        exponents[index_in_block(frequency)] = static_cast<std::uint8_t>(exponent);
     }
     return true;
 }

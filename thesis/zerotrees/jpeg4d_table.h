@@ -10,14 +10,14 @@
 
 namespace hogel::zerotrees {
 
-// The quantisation table of a stream: [place_in_block()] an exponent e for each frequency of a whole block, whose step
-// is scale · 2^(e/4).
+// Quantisation table of a stream: [index_in_block()] an exponent e for each frequency of a full block, with a step of
+// scale · 2^(e/4).
 using Exponents = std::vector<std::uint8_t>;
 constexpr int max_exponent = 24;
 
 Quantisation own_quantisation(double scale, const Exponents& exponents);
 
-// The table with the least distortion + 0.12 scale² · bits, including the bits of the table itself.
+// Returns the table with the least distortion + 0.12 scale² · bits, including the bits of the table.
 Exponents choose_exponents(const Blocks& blocks, std::span<const float> values, double scale);
 
 void write_exponents(coding::ArithmeticEncoder& encoder, const Blocks& blocks, const Exponents& exponents);

@@ -59,7 +59,7 @@ TEST(OwnTable, comes_back) {
         const Blocks blocks(wavelets::Pyramid::interleaved(shape));
         Exponents exponents(zigzag(shape.size()).size(), 0), read;
         for (const Frequency& frequency : blocks.frequencies())
-            exponents[place_in_block(frequency)] = static_cast<std::uint8_t>(random() % (max_exponent + 1));
+            exponents[index_in_block(frequency)] = static_cast<std::uint8_t>(random() % (max_exponent + 1));
         coding::ArithmeticEncoder encoder;
         write_exponents(encoder, blocks, exponents);
         const Bytes code = encoder.finish();
@@ -78,9 +78,9 @@ TEST(OwnTable, has_the_frequencies_of_the_blocks) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 9, 1, 17}, {3}, {5, 12}, {2, 7, 8}}) {
         const Blocks blocks(wavelets::Pyramid::interleaved(shape));
         std::vector<bool> listed(zigzag(shape.size()).size());
-        for (const Frequency& frequency : blocks.frequencies()) listed[place_in_block(frequency)] = true;
+        for (const Frequency& frequency : blocks.frequencies()) listed[index_in_block(frequency)] = true;
         for (const Blocks::Kind& kind : blocks.kinds())
-            for (const std::uint16_t whole : kind.whole) EXPECT_TRUE(listed[whole]);
+            for (const std::uint16_t whole : kind.full_index) EXPECT_TRUE(listed[whole]);
     }
     EXPECT_EQ(Blocks(wavelets::Pyramid::interleaved({9, 1, 16})).frequencies().size(), 64u);
     EXPECT_EQ(Blocks(wavelets::Pyramid::interleaved({4, 2})).frequencies().size(), 7u * 5u);
@@ -101,7 +101,7 @@ TEST(OwnTable, decodes_to_multiples_of_its_steps) {
         const Blocks::Block block = blocks[number];
         const Blocks::Kind& kind = blocks.kind(block);
         for (std::size_t entry = 0; entry < kind.offsets.size(); ++entry, ++entries) {
-            const std::uint8_t e = exponents[kind.whole[entry]];
+            const std::uint8_t e = exponents[kind.full_index[entry]];
             const double step = scale * std::pow(2, e / 4.0);
             const double value = values[block.origin + kind.offsets[entry]];
             const double level = std::floor(std::abs(value) / step + 0.4);
@@ -130,7 +130,7 @@ TEST(OwnTable, is_flat_for_fine_steps_and_coarser_for_coarse_ones) {
     EXPECT_GT(mean(3), 1.5);
 }
 
-// Even for a single block the table costs less than it gains.
+// Even for a single block the table costs less than it saves.
 TEST(OwnTable, takes_fewer_bytes_than_jpegs) {
     for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{8, 8, 8, 8}, {64, 64, 8}, {64, 64}}) {
         const wavelets::Pyramid pyramid = wavelets::Pyramid::interleaved(shape);

@@ -52,7 +52,7 @@ TEST(Jpeg4d, table_is_the_outer_product) {
     EXPECT_EQ(table_entry({5, 6, 3}), 113 * 16);
 }
 
-// The tuples of levels in zigzag order, and the levels that follow them.
+// Returns the tuples of levels in zigzag order, and the levels that follow them.
 std::pair<std::vector<Tuple>, std::vector<std::int32_t>> tuples_of(const std::vector<std::int32_t>& levels) {
     SparseLevels sparse;
     sparse.clear();

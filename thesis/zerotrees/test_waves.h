@@ -10,7 +10,7 @@
 
 namespace hogel::zerotrees {
 
-// The coefficients of a wave across all axes, with an edge and a little noise.
+// Returns the coefficients of a wave across all axes, with an edge and a little noise.
 inline std::vector<float> transformed_waves(const wavelets::Pyramid& pyramid, std::string_view transform) {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;

@@ -12,33 +12,33 @@
 
 namespace hogel::zerotrees {
 
-// How the symbols of the three-pass coder become an arithmetic code: bit by bit in contexts, or from the alphabets of
-// [K]. Either is written once for encoder and decoder: bit(model, value), even(value), raw(value, count) and
-// symbol(model, value) of a coder write what they are given, or read it, and return it.
+// Arithmetic coding of the symbols of the three-pass coder: bit by bit in contexts, or from the alphabets of [K].
+// Encoder and decoder share the code: bit(model, value), even(value), raw(value, count) and symbol(model, value) of a
+// coder write their argument, or read a value, and return it.
 
 constexpr int max_planes = 30;
 
 // Models of the bits of symbols.
 struct ThreePassModels {
     using Unary = std::array<coding::BitModel, max_planes>;
-    static constexpr std::size_t contexts = 6;  // of the two previous coefficients
+    static constexpr std::size_t contexts = 6;  // contexts of the two previous coefficients
     // [bits of the parent's subtree][leaf][context]
     std::array<std::array<std::array<coding::BitModel, contexts>, 2>, max_planes + 1> tree_found;
     std::array<std::array<std::array<Unary, contexts>, 2>, max_planes + 1> tree_less;
     // [bits of the subtree][context]
     std::array<std::array<coding::BitModel, contexts>, max_planes + 1> node_found;
     std::array<Unary, max_planes + 1> node_less;
-    std::array<Unary, max_planes + 1> magnitude;  // [bits of the level][which bit]
+    std::array<Unary, max_planes + 1> magnitude;  // [bits of the level][index of the bit]
 };
 
-// Symbols bit by bit.
+// Symbols coded bit by bit.
 template <class Coder>
 class BitSymbols {
   public:
     BitSymbols(Coder of, int) : coder(std::move(of)), models_(std::make_unique<ThreePassModels>()) {}
 
     int tree(int symbol, int above, bool leaf) {
-        // Next to a large coefficient others are likely.
+        // Large coefficients are likely next to each other.
         const std::size_t before = tree_before_ == 0 ? 0u : tree_before_ < above ? 1u : 2u;
         context_ = 2 * before + (tree_before_that_ > 0 ? 1u : 0u);
         const auto up = static_cast<std::size_t>(above);
@@ -58,10 +58,11 @@ class BitSymbols {
     std::pair<std::uint32_t, bool> magnitude(std::uint32_t level, int bits, bool negative) {
         negative = coder.even(negative);
         std::uint32_t result = 1;
-        for (int at = bits - 2; at >= 0; --at)
-            result = result << 1 | std::uint32_t{coder.bit(
-                                       models_->magnitude[static_cast<std::size_t>(bits)][static_cast<std::size_t>(at)],
-                                       (level >> at & 1) != 0)};
+        for (int bit_index = bits - 2; bit_index >= 0; --bit_index)
+            result = result << 1 |
+                     std::uint32_t{coder.bit(
+                         models_->magnitude[static_cast<std::size_t>(bits)][static_cast<std::size_t>(bit_index)],
+                         (level >> bit_index & 1) != 0)};
         return {result, negative};
     }
 
@@ -80,8 +81,8 @@ class BitSymbols {
     int tree_before_ = 0, tree_before_that_ = 0;  // bits of the last two subtrees
 };
 
-// Symbols as [K] 4.4.2 has them: Δp_t and Δp_n each from an alphabet of the numbers −1 to b_max − 1, a bit for the
-// sign, and b_max − p_n − 1 bits of the magnitude as they are.
+// Symbols as in [K] 4.4.2: Δp_t and Δp_n each from an alphabet of the numbers −1 to b_max − 1, a bit for the sign, and
+// b_max − p_n − 1 uncoded bits of the magnitude.
 template <class Coder>
 class AlphabetSymbols {
   public:
@@ -90,7 +91,7 @@ class AlphabetSymbols {
           tree_(static_cast<std::size_t>(planes) + 1),
           node_(static_cast<std::size_t>(planes) + 1) {}
 
-    // Numbers that no encoder writes are taken for the nearest that it may write, so that damaged codes stay harmless.
+    // Numbers that no encoder writes are clamped, so that damaged codes stay harmless.
     int tree(int symbol, int above, bool) { return std::min(coded(tree_, symbol), above - 1); }
     int node(int symbol, int tree_bits) { return std::min(coded(node_, symbol), tree_bits - 1); }
     std::pair<std::uint32_t, bool> magnitude(std::uint32_t level, int bits, bool negative) {
@@ -138,7 +139,7 @@ struct SymbolDecoder {
     std::size_t symbol(coding::SymbolModel& model, std::size_t) { return decoder.symbol(model); }
 };
 
-// The sink of write_three_pass().
+// Sink of write_three_pass().
 template <template <class> class Symbols>
 struct Encoding {
     Symbols<SymbolEncoder> symbols;
@@ -149,7 +150,7 @@ struct Encoding {
     void magnitude(std::uint32_t level, int bits, bool negative) { symbols.magnitude(level, bits, negative); }
 };
 
-// The source of read_three_pass().
+// Source of read_three_pass().
 template <template <class> class Symbols>
 struct Decoding {
     Symbols<SymbolDecoder> symbols;
@@ -157,7 +158,7 @@ struct Decoding {
     Decoding(int planes, std::span<const std::uint8_t> code)
         : symbols(SymbolDecoder{coding::ArithmeticDecoder(code)}, planes) {}
     const coding::ArithmeticDecoder& decoder() const { return symbols.coder.decoder; }
-    // Beyond the end of a truncated stream every tree is a zerotree, so that the passes end soon.
+    // After the end of a truncated stream every tree is a zerotree, so that the passes end soon.
     int tree(int above, bool leaf) { return decoder().ended() ? -1 : symbols.tree(0, above, leaf); }
     int node(int tree_bits) { return symbols.node(0, tree_bits); }
     std::pair<std::uint32_t, bool> magnitude(int bits) { return symbols.magnitude(0, bits, false); }

@@ -12,23 +12,23 @@
 
 namespace hogel::zerotrees {
 
-// The passes of the three-pass coder over the trees, shared by encoder and decoder. They use numbers of bits instead of
-// [K]'s p: a level of n bits has p_n = b_max − n, and a subtree whose largest level has t bits has p_t = b_max − t.
+// Passes of the three-pass coder over the trees, shared by encoder and decoder. They use numbers of bits instead of
+// [K]'s p: a level of n bits has p_n = b_max − n, and a subtree with a largest level of t bits has p_t = b_max − t.
 
-// Second pass, from leaves to roots: the bits of the largest level in each subtree.
+// Second pass, from leaves to roots: returns the bits of the largest level in each subtree.
 inline std::vector<std::uint8_t> subtree_bits(const Forest& forest, std::span<const float> values,
                                               const Quantiser& quantiser) {
     std::vector<std::uint8_t> bits(forest.size());
     for (auto band = forest.bands().rbegin(); band != forest.bands().rend(); ++band)
         forest.for_each(*band, [&](std::size_t index, std::size_t parent) {
-            const auto own = static_cast<std::uint8_t>(std::bit_width(quantiser.level(values[index])));
-            bits[index] = std::max(bits[index], own);
+            const auto level_bits = static_cast<std::uint8_t>(std::bit_width(quantiser.level(values[index])));
+            bits[index] = std::max(bits[index], level_bits);
             if (parent != Forest::no_parent) bits[parent] = std::max(bits[parent], bits[index]);
         });
     return bits;
 }
 
-// Third pass, from roots to leaves. Calls for each coefficient that has symbols
+// Third pass, from roots to leaves. Calls for each coefficient with symbols
 //   sink.tree(Δp_t or −1, bits of the parent's subtree, leaf),
 //   sink.node(Δp_n or −1, bits of its subtree) unless it is a leaf, and
 //   sink.magnitude(level, its bits, negative).
@@ -44,14 +44,14 @@ void write_three_pass(const Forest& forest, std::span<const float> values, const
             sink.tree(tree == 0 ? -1 : above - tree, above, band.leaf);
             if (tree == 0) return;
             const std::uint32_t level = quantiser.level(values[index]);
-            const int own = std::bit_width(level);
-            if (!band.leaf) sink.node(own == 0 ? -1 : tree - own, tree);
-            if (own > 0) sink.magnitude(level, own, values[index] < 0);
+            const int level_bits = std::bit_width(level);
+            if (!band.leaf) sink.node(level_bits == 0 ? -1 : tree - level_bits, tree);
+            if (level_bits > 0) sink.magnitude(level, level_bits, values[index] < 0);
         });
 }
 
-// The inverse of the third pass. source.tree(bits of the parent's subtree, leaf) returns Δp_t below them or −1,
-// source.node(bits of the subtree) likewise Δp_n, source.magnitude(bits of the level) level and sign.
+// Inverts the third pass. source.tree(bits of the parent's subtree, leaf) returns Δp_t below them or −1,
+// source.node(bits of the subtree) Δp_n or −1, source.magnitude(bits of the level) level and sign.
 template <class Source>
 void read_three_pass(const Forest& forest, const Quantiser& quantiser, int planes, Source& source,
                      std::span<float> values) {

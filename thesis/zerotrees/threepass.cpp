@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t three_pass_header_bytes = 5;
 
-// A bit of the byte with the number of bit planes: set if symbols are coded from alphabets.
+// Flag in the byte with the number of bit planes: symbols are coded from alphabets.
 constexpr std::uint8_t with_alphabets = 0x80;
 
-[[noreturn]] void damaged(const char* what) {
-    throw Error(ErrorCode::bad_input, fmt::format("three-pass stream: {}, expected a whole undamaged one", what));
+[[noreturn]] void damaged(const char* problem) {
+    throw Error(ErrorCode::bad_input, fmt::format("three-pass stream: {}, expected a whole undamaged one", problem));
 }
 
 void check_three_pass_size(const wavelets::Pyramid& pyramid, std::size_t size) {

@@ -71,7 +71,7 @@ std::vector<wavelets::Pyramid> three_pass_pyramids() {
             wavelets::Pyramid(Extents{20, 20}, {})};
 }
 
-// Counts the bits that [K] 4.4.2 gives each part of the code.
+// Counts the bits of each part of the code in [K] 4.4.2.
 struct Alphabet {
     std::vector<int> tree, node;
     int signs = 0, bits = 0;
@@ -82,7 +82,7 @@ struct Alphabet {
     }
 };
 
-// The entropy of symbols, bits.
+// Returns the entropy of symbols, bits.
 double entropy(const std::vector<std::size_t>& counts) {
     double all = 0, sum = 0;
     for (const std::size_t count : counts) all += static_cast<double>(count);
@@ -201,7 +201,7 @@ TEST(ThreePass, impossible_requests_are_refused) {
     for (double asked : {0.0, -3.0, 500.0, std::nan("")}) EXPECT_THROW(step_for_sqnr(values, asked), Error);
 }
 
-// One coding whose size is about the one asked for.
+// A single coding yields approximately the requested size.
 TEST(HistogramRule, predicts_the_size_of_three_pass_codes) {
     const wavelets::Pyramid pyramid = wavelets::Pyramid::interleaved({40, 50, 30});
     std::vector<float> values(pyramid.size());
