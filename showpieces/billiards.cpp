@@ -11,7 +11,7 @@
 namespace hogel::showpieces {
 namespace {
 
-// Balls are about twice as large as on a real table, where they would be only a few hogels wide.
+// Balls are about twice their real size; otherwise they would be only a few hogels wide.
 using std::numbers::pi;
 constexpr double ball_radius = 0.062;
 
@@ -47,7 +47,7 @@ void add_pool_ball(scene::MeshBuilder& builder, int number, const PlacedBall& pl
     scene::add_ball(builder, {placed.x, ball_radius, placed.z}, ball_radius, normalize(placed.axis), 28, rings);
 }
 
-/// The balls of a game just after the break.
+/// Returns the balls of a game just after the break.
 Mesh balls() {
     constexpr std::array<PlacedBall, 16> places{{{-0.62, 0.24, {0, 1, 0}},
                                                  {0.43, 0.02, {0.3, 0.8, 0.5}},
@@ -72,19 +72,19 @@ Mesh balls() {
     return std::move(builder.mesh);
 }
 
-/// The cue, aimed at the cue ball, and the chalk.
+/// Returns the cue, aimed at the cue ball, and the chalk.
 Mesh cue() {
     const Vec3 tip{-0.73, 0.085, 0.29}, butt{-1.52, 0.40, 0.74};
     constexpr std::size_t steps = 48;
     constexpr Rgb maple{0.66f, 0.43f, 0.20f}, ebony{0.035f, 0.02f, 0.015f}, ivory{0.80f, 0.75f, 0.62f},
         leather{0.06f, 0.14f, 0.25f};
-    const double whole = length(butt - tip);
+    const double length_of_cue = length(butt - tip);
     scene::MeshBuilder builder;
     scene::add_tube(
         builder, 20, steps, [&](std::size_t k) { return tip + static_cast<double>(k) / steps * (butt - tip); },
         [](std::size_t k) { return 0.011 + 0.014 * static_cast<double>(k) / steps; },
         [&](Vec3 p) {
-            const double w = length(p - tip) / whole;
+            const double w = length(p - tip) / length_of_cue;
             return w < 0.015 ? leather : w < 0.05 ? ivory : w < 0.6 ? maple : std::fmod(w, 0.12) < 0.02 ? ivory : ebony;
         });
     scene::add_box(builder, {-0.11, rail_top, half_width + 0.075}, {-0.06, rail_top + 0.045, half_width + 0.125}, 0.03,
@@ -99,7 +99,7 @@ Mesh cue() {
 constexpr std::array<double, 3> lamp_places{-0.74, 0, 0.74};
 constexpr double lamp_height = 0.86;
 
-/// Three lamps on a brass bar, with shades that are green outside and white inside.
+/// Adds three lamps on a brass bar, with shades that are green outside and white inside.
 void add_lamps(Scene& scene) {
     scene::MeshBuilder outside, inside, brass, bulbs;
     constexpr Rgb gold{0.62f, 0.42f, 0.13f};
@@ -141,7 +141,7 @@ void add_lamps(Scene& scene) {
     }
 }
 
-/// A round carpet.
+/// Returns a round carpet.
 Mesh carpet() {
     constexpr std::size_t columns = 64, rows = 30;
     scene::MeshBuilder builder;

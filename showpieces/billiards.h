@@ -9,15 +9,15 @@ namespace hogel::showpieces {
 inline constexpr double half_length = 1.2, half_width = 0.64;
 inline constexpr double rail_top = 0.075, floor_height = -0.78;
 
-/// The frame that carries cloth and rails, from its skirt to the inner edge of the rails. A closed surface.
+/// Returns the frame that carries cloth and rails, from its skirt to the inner edge of the rails. A closed surface.
 Mesh frame();
 Mesh cloth();
-/// The cushions between the pockets, with mitred ends. Their nose is above the middle of the balls.
+/// Returns the cushions between the pockets, with mitred ends. Their nose is above the middle of the balls.
 Mesh cushions();
 Mesh pocket_nets();
-/// Inlays of mother-of-pearl in the rails.
+/// Returns the inlays of mother-of-pearl in the rails.
 Mesh sights();
-/// Turned legs under the corners and the middle of the frame.
+/// Returns the turned legs under the corners and the middle of the frame.
 Mesh legs();
 
 }  // namespace hogel::showpieces

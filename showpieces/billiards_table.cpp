@@ -11,7 +11,7 @@ namespace {
 using std::numbers::pi;
 constexpr double rail_width = 0.15, corner = 0.11;
 
-/// Wood with its grain along a direction: dark lines in a light ground.
+/// Returns the colour of wood with grain along a direction: dark lines on a light ground.
 Rgb wood(double along, double across, Rgb light, Rgb dark) {
     const double ring = std::sin(46 * across + 3 * std::sin(2.3 * along) + 1.5 * std::sin(11 * across + along));
     return scene::mix(light, dark, 0.5 + 0.32 * ring + 0.18 * std::sin(150 * across + 9 * along));
@@ -23,7 +23,7 @@ Rgb rosewood(Vec3 p) {
                    : wood(p.z, p.x + p.y, {0.33f, 0.125f, 0.05f}, {0.17f, 0.05f, 0.02f});
 }
 
-/// A path around a rectangle with round corners, grown by `grow`, counterclockwise seen from above.
+/// Path around a rectangle with round corners, offset outwards by `grow`, counterclockwise seen from above.
 struct Around {
     double half_x, half_z, radius;
     std::size_t on_corner, on_long, on_short;
@@ -51,7 +51,7 @@ struct Around {
     }
 };
 
-/// A moulding around the table. Its profile is a list of distances outwards from the rectangle, and heights.
+/// Adds a moulding around the table. The profile is a list of distances outwards from the rectangle, and heights.
 template <std::size_t n>
 void add_moulding(scene::MeshBuilder& builder, const Around& around,
                   const std::array<std::pair<double, double>, n>& profile, Rgb (*color)(Vec3)) {
@@ -64,7 +64,7 @@ void add_moulding(scene::MeshBuilder& builder, const Around& around,
         color);
 }
 
-/// The centres (x, z) of the pockets; the middle ones lie a little outside.
+/// Centres (x, z) of the pockets; the middle ones lie slightly outside.
 constexpr std::array<std::pair<double, double>, 6> pockets{{{-half_length, -half_width},
                                                             {0, -half_width - 0.02},
                                                             {half_length, -half_width},
@@ -99,7 +99,7 @@ Mesh frame() {
 
 Mesh cloth() {
     constexpr std::size_t columns = 90, rows = 48;
-    constexpr double over = 0.3 * rail_width;  // the part under the rails
+    constexpr double over = 0.3 * rail_width;  // overlap under the rails
     scene::MeshBuilder builder;
     builder.patch(
         columns, rows, false,
@@ -136,7 +136,7 @@ Mesh cushions() {
     constexpr double mouth = 0.1, side_mouth = 0.085;
     for (double side : {-1.0, 1.0}) {
         for (double part : {-1.0, 1.0}) {
-            const double near_end = side * part;  // which end, along `right`, is at the middle pocket
+            const double near_end = side * part;  // end at the middle pocket, along `right`
             const Vec3 right{side, 0, 0}, out{0, 0, side};
             const double length = 0.5 * (half_length - mouth - side_mouth);
             const Vec3 middle{part * (side_mouth + length), 0, side * half_width};

@@ -23,7 +23,7 @@ double distance_to_segment(Parameter p, Parameter q, Parameter r) {
     return distance(p, lerp(q, r, std::clamp(w, 0.0, 1.0)));
 }
 
-/// Distance to the nearest outline: negative inside a hole.
+/// Returns the distance to the nearest outline: negative inside a hole.
 double clearance(Parameter p, Holes holes) {
     double nearest = std::numeric_limits<double>::infinity();
     bool inside = false;
@@ -49,7 +49,7 @@ class Carver {
         for (Index i = 0; i < n; ++i) {
             whole_.push_back({0, at(1, i + 1), at(1, i)});
             for (std::size_t k = 1; k + 2 < rows.size(); ++k) {
-                // Diagonals are mirrored at the middle column, so that a symmetric pattern is cut symmetrically.
+                // Diagonals are mirrored at the middle column, so that cuts of a symmetric pattern are symmetric.
                 const Index p = at(k, i), q = at(k, i + 1), r = at(k + 1, i + 1), s = at(k + 1, i);
                 if (2 * i < n) {
                     whole_.push_back({p, q, r});
@@ -100,7 +100,7 @@ class Carver {
             }
     }
 
-    /// Moves points close to an outline onto it, so that no slivers arise.
+    /// Moves points close to an outline onto it, to avoid slivers.
     void snap_to_outlines() {
         constexpr double close = 0.3;
         for (const auto& triangle : whole_)
@@ -115,7 +115,7 @@ class Carver {
             }
     }
 
-    /// The crossing of an outline with the edge from i to j, by bisection: 0 at i, 1 at j.
+    /// Returns the crossing of an outline with the edge from i to j, by bisection: 0 at i, 1 at j.
     double crossing(Index i, Index j) const {
         double low = 0, high = 1;
         for (int step = 0; step < 40; ++step) {
@@ -137,21 +137,22 @@ class Carver {
     }
 
     void cut(const std::array<Index, 3>& triangle) {
-        std::vector<Index> kept;
+        std::vector<Index> corners;
         for (std::size_t k = 0; k < 3; ++k) {
             const Index i = triangle[k], j = triangle[(k + 1) % 3];
-            if (side_[i] >= 0) kept.push_back(i);
-            if (side_[i] * side_[j] < 0) kept.push_back(cut_point(i, j));
+            if (side_[i] >= 0) corners.push_back(i);
+            if (side_[i] * side_[j] < 0) corners.push_back(cut_point(i, j));
         }
-        if (kept.size() < 3) return;
-        if (std::all_of(kept.begin(), kept.end(), [&](Index i) { return side_[i] == 0; })) {
-            const Parameter p = grid_.points[kept[0]], q = grid_.points[kept[1]], r = grid_.points[kept[2]];
+        if (corners.size() < 3) return;
+        if (std::all_of(corners.begin(), corners.end(), [&](Index i) { return side_[i] == 0; })) {
+            const Parameter p = grid_.points[corners[0]], q = grid_.points[corners[1]], r = grid_.points[corners[2]];
             if (clearance({(p.a + q.a + r.a) / 3, (p.b + q.b + r.b) / 3}, holes_) < 0) return;
         }
-        for (std::size_t k = 2; k < kept.size(); ++k) grid_.triangles.push_back({kept[0], kept[k - 1], kept[k]});
+        for (std::size_t k = 2; k < corners.size(); ++k)
+            grid_.triangles.push_back({corners[0], corners[k - 1], corners[k]});
     }
 
-    /// The surface is closed except for the holes, so an edge of one triangle alone belongs to a rim.
+    /// Finds the rims. The surface is closed except for the holes, so an edge of a single triangle belongs to a rim.
     void find_rims() {
         std::map<Edge, int> edges;
         for (const auto& t : grid_.triangles)

@@ -16,7 +16,7 @@ constexpr double hook = 1.25;
 
 constexpr Rgb gold{0.72f, 0.47f, 0.15f}, old_gold{0.46f, 0.27f, 0.08f}, wax{0.86f, 0.80f, 0.66f};
 
-/// One of the two tiers of arms.
+/// Tier of arms; there are two.
 struct Tier {
     std::size_t arms;
     double first_angle, root, reach, candle;  // root and candle: heights of the arms' roots and the candles' feet
@@ -31,7 +31,7 @@ Vec3 cup(const Tier& tier, std::size_t arm) {
     return tier.reach * outwards(angle_of(tier, arm)) + Vec3{0, tier.candle, 0};
 }
 
-/// A point of an arm, which leaves the stem (w = 0), dips and rises to its cup (w = 1) in an S-curve.
+/// Returns a point of an arm, which leaves the stem (w = 0), dips and rises to its cup (w = 1) in an S-curve.
 Vec3 arm_point(const Tier& tier, std::size_t arm, double w) {
     const double out = 0.05 + (tier.reach - 0.05) * (w - 0.09 * std::sin(2 * pi * w));
     const double height = tier.root + (tier.candle - tier.root - 0.02) * w * w * (3 - 2 * w) -
@@ -39,7 +39,7 @@ Vec3 arm_point(const Tier& tier, std::size_t arm, double w) {
     return out * outwards(angle_of(tier, arm)) + Vec3{0, height, 0};
 }
 
-/// The stem: balls and vases on an axis, from the knob below to the ring above.
+/// Adds the stem: balls and vases on an axis, from the knob below to the ring above.
 void add_stem(scene::MeshBuilder& brass) {
     constexpr std::array<std::pair<double, double>, 16> knots{{{-0.66, 0.0},
                                                                {-0.63, 0.035},
@@ -83,7 +83,7 @@ void add_chain(scene::MeshBuilder& brass) {
         {0, hook, 0}, 40, rose.size() - 1, [&](std::size_t k) { return rose[k]; }, [](Vec3) { return gold; });
 }
 
-/// Cup, candle and flame at the end of an arm.
+/// Adds cup, candle and flame at the end of an arm.
 void add_candle(scene::MeshBuilder& brass, scene::MeshBuilder& candles, scene::MeshBuilder& flames, Vec3 foot) {
     constexpr std::array<std::pair<double, double>, 9> bowl{{{0.0, -0.035},
                                                              {0.022, -0.03},
@@ -122,7 +122,7 @@ void add_candle(scene::MeshBuilder& brass, scene::MeshBuilder& candles, scene::M
         });
 }
 
-/// A faceted drop: a small table on top, a girdle, a long point below.
+/// Adds a faceted drop: a small table on top, a girdle, a long point below.
 void add_drop(scene::MeshBuilder& crystal, Vec3 top, double size, std::uint32_t number) {
     constexpr std::size_t sides = 8;
     const double rotation = scene::hashed(number, 3, 5);
@@ -142,7 +142,7 @@ void add_drop(scene::MeshBuilder& crystal, Vec3 top, double size, std::uint32_t 
         [&](Vec3 p) { return (p.y > top.y - 0.8 * size ? 1.0f : 0.8f) * bright * tint; });
 }
 
-/// A string of beads that hangs between two points, sagging like a chain.
+/// Adds a string of beads between two points, sagging like a chain.
 void add_beads(scene::MeshBuilder& crystal, Vec3 from, Vec3 to, double sag, std::size_t beads, double radius) {
     for (std::size_t i = 0; i < beads; ++i) {
         const double w = (static_cast<double>(i) + 0.5) / static_cast<double>(beads);
@@ -152,7 +152,7 @@ void add_beads(scene::MeshBuilder& crystal, Vec3 from, Vec3 to, double sag, std:
     }
 }
 
-/// A drop below each cup and a ring of drops around it, strings of beads between neighbours and up to the crown.
+/// Adds a drop below each cup and a ring of drops around it, strings of beads between neighbours and up to the crown.
 void add_crystal(scene::MeshBuilder& crystal) {
     std::uint32_t number = 0;
     for (const Tier& tier : tiers) {
@@ -201,7 +201,7 @@ void add_arms(const Tier& tier, scene::MeshBuilder& brass, scene::MeshBuilder& c
 }
 
 void add_lights(Scene& scene) {
-    // The light of the candles comes from four lamps between them, instead of one for each flame.
+    // Four lamps between the candles replace one lamp per flame.
     for (int i = 0; i < 3; ++i) {
         Light glow;
         glow.kind = Light::Kind::point;

@@ -17,7 +17,7 @@ constexpr double wall_thickness = 0.62;
 constexpr Rgb stone{0.66f, 0.56f, 0.42f}, warm_stone{0.70f, 0.60f, 0.46f}, trim{0.78f, 0.71f, 0.58f},
     section{0.30f, 0.12f, 0.07f};
 
-/// The far wall of the nave, seen from the nave: a is x.
+/// Returns the far wall of the nave, seen from the nave: a is x.
 Frame nave_wall() { return {{0, 0, -nave_half}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
 
 void nave_bay(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, std::size_t bay) {
@@ -63,7 +63,7 @@ void aisle_bay(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, std::
     masonry.slab(wall, a0, a1, below_floor, 0.4, 0.16, trim);
 }
 
-/// The shafts from the floor to the vault, and the ribs that continue them.
+/// Adds the shafts from the floor to the vault, and the ribs that continue them.
 void shafts_and_ribs(scene::MeshBuilder& smooth) {
     constexpr std::array<std::pair<double, double>, 16> profile{{{0.0, 0.0},
                                                                  {0.42, 0.0},
@@ -94,7 +94,7 @@ void shafts_and_ribs(scene::MeshBuilder& smooth) {
                 return Vec3{x, y, z};
             },
             [](std::size_t) { return 0.17; }, color);
-        // The near row is cut off above its bases.
+        // The near row is cut above its bases.
         smooth.revolve(
             {x, 0, nave_half - 0.12}, 16, 8,
             [&](std::size_t k) {
@@ -112,7 +112,7 @@ void shafts_and_ribs(scene::MeshBuilder& smooth) {
         [](std::size_t) { return 0.1; }, color);
 }
 
-/// A barrel vault of blue plaster from the far wall to slightly beyond its crown, with a roof above.
+/// Adds a barrel vault of blue plaster from the far wall to slightly beyond its crown, with a roof above.
 void barrel(scene::MeshBuilder& smooth, scene::MeshBuilder& stars) {
     constexpr std::size_t columns = 90, rows = 20;
     const auto along = [](std::size_t i) { return half_length * (2 * static_cast<double>(i) / columns - 1); };
@@ -156,7 +156,7 @@ void barrel(scene::MeshBuilder& smooth, scene::MeshBuilder& stars) {
     add_stars(stars);
 }
 
-/// Plaster over the aisle, which slopes down to its wall, and a roof.
+/// Adds the plaster over the aisle, sloping down to its wall, and a roof.
 void aisle_ceiling(scene::MeshBuilder& smooth) {
     constexpr double high = 5.0;
     for (const bool below : {true, false})
@@ -173,7 +173,7 @@ void aisle_ceiling(scene::MeshBuilder& smooth) {
             });
 }
 
-/// Five sides of a decagon under a half dome; the near one is cut away.
+/// Adds five sides of a decagon under a half dome; the near one is cut away.
 void apse(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, scene::MeshBuilder& mosaic) {
     constexpr int sides = 4;
     for (int side = 0; side < sides; ++side) {
@@ -218,7 +218,7 @@ void apse(Masonry& masonry, std::array<scene::MeshBuilder, 4>& glass, scene::Mes
         [](Vec3) { return warm_stone; });
 }
 
-/// The parts of the west end that the cut leaves.
+/// Adds the remaining parts of the west end.
 void west_end(Masonry& masonry) {
     const Frame end{{-half_length, 0, 0}, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}};
     const Frame far_end{{half_length, 0, 0}, {0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};
@@ -234,8 +234,8 @@ Light lamp(Vec3 position, Rgb intensity) {
     return light;
 }
 
-/// Thirty lights: twelve in the nave, six in the aisle, five altar candles, three in the apse, three in the choir, and
-/// the sun through the cut.
+/// Returns thirty lights: twelve in the nave, six in the aisle, five altar candles, three in the apse, three in the
+/// choir, and the sun through the cut.
 std::vector<Light> lights() {
     std::vector<Light> list;
     for (std::size_t i = 0; i < pendants; ++i) list.push_back(lamp(pendant(i) - Vec3{0, 0.30, 0}, {5.4f, 4.2f, 2.6f}));

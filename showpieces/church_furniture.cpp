@@ -11,7 +11,7 @@ namespace {
 using std::numbers::pi;
 constexpr Rgb gold{0.70f, 0.46f, 0.14f}, linen{0.86f, 0.84f, 0.79f};
 
-/// A candlestick with its candle and flame.
+/// Adds a candlestick with candle and flame.
 void add_altar_candle(scene::MeshBuilder& wood, scene::MeshBuilder& brass, scene::MeshBuilder& flames, Vec3 foot) {
     brass.revolve(
         {foot.x, 1.665, foot.z}, 16, 9,

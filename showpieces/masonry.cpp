@@ -113,7 +113,7 @@ void Masonry::recess(const Frame& frame, const Opening& opening, double depth, R
     }
 }
 
-void Masonry::archivolt(const Frame& frame, const Opening& opening, double width, double reach, Rgb stone) {
+void Masonry::archivolt(const Frame& frame, const Opening& opening, double width, double projection, Rgb stone) {
     for (std::size_t i = 0; i + 1 < opening.segments + 3; ++i) {
         const std::size_t parts = i == 0 || i == opening.segments + 1 ? 5 : 1;
         for (std::size_t k = 0; k < parts; ++k) {
@@ -124,22 +124,22 @@ void Masonry::archivolt(const Frame& frame, const Opening& opening, double width
                 return frame.at(x0 + w * (x1 - x0), y0 + w * (y1 - y0), c);
             };
             const Rgb color = vary(stone, 0.15);
-            quad(corner(0, k, reach), corner(0, k + 1, reach), corner(width, k + 1, reach), corner(width, k, reach),
-                 color);
-            quad(corner(width, k, reach), corner(width, k + 1, reach), corner(width, k + 1, 0), corner(width, k, 0),
-                 color);
-            quad(corner(0, k + 1, reach), corner(0, k, reach), corner(0, k, 0), corner(0, k + 1, 0), color);
+            quad(corner(0, k, projection), corner(0, k + 1, projection), corner(width, k + 1, projection),
+                 corner(width, k, projection), color);
+            quad(corner(width, k, projection), corner(width, k + 1, projection), corner(width, k + 1, 0),
+                 corner(width, k, 0), color);
+            quad(corner(0, k + 1, projection), corner(0, k, projection), corner(0, k, 0), corner(0, k + 1, 0), color);
         }
     }
 }
 
-void Masonry::slab(const Frame& frame, double a0, double a1, double b0, double b1, double reach, Rgb stone) {
+void Masonry::slab(const Frame& frame, double a0, double a1, double b0, double b1, double projection, Rgb stone) {
     const std::size_t parts = pieces(b1 - b0, 0.3);
     for (std::size_t k = 0; k < parts; ++k) {
         const double low = b0 + (b1 - b0) * static_cast<double>(k) / static_cast<double>(parts);
         const double high = b0 + (b1 - b0) * static_cast<double>(k + 1) / static_cast<double>(parts);
         const Rgb color = vary(stone, 0.15);
-        const Vec3 right = (a1 - a0) * frame.right, up = (high - low) * frame.up, out = reach * frame.out;
+        const Vec3 right = (a1 - a0) * frame.right, up = (high - low) * frame.up, out = projection * frame.out;
         const Vec3 foot = frame.at(a0, low, 0);
         flat_patch(foot + out, right, up, color, 0.25);
         flat_patch(foot, out, up, color, 0.25);
@@ -157,8 +157,8 @@ void Masonry::box(Vec3 low, Vec3 high, Rgb stone, double patch) {
         const Vec3 out = along_x ? Vec3{0, 0, far} : Vec3{far, 0, 0};
         const Vec3 right = along_x ? Vec3{far, 0, 0} : Vec3{0, 0, -far};
         const Vec3 middle = 0.5 * (low + high);
-        const double half = 0.5 * (along_x ? size.x : size.z), reach = 0.5 * (along_x ? size.z : size.x);
-        const Vec3 corner = middle + reach * out - half * right - Vec3{0, 0.5 * size.y, 0};
+        const double half = 0.5 * (along_x ? size.x : size.z), half_thickness = 0.5 * (along_x ? size.z : size.x);
+        const Vec3 corner = middle + half_thickness * out - half * right - Vec3{0, 0.5 * size.y, 0};
         const std::size_t blocks = pieces(2 * half, 0.45);
         for (std::size_t i = 0; i < blocks; ++i)
             flat_patch(corner + 2 * half * static_cast<double>(i) / static_cast<double>(blocks) * right,
@@ -178,27 +178,30 @@ void Masonry::quoins(Vec3 foot, double half_width, double height, double block_h
     }
 }
 
-void Masonry::ring(const Frame& frame, double inner, double outer, double reach, Rgb color, std::size_t segments) {
+void Masonry::ring(const Frame& frame, double inner, double outer, double projection, Rgb color, std::size_t segments) {
     for (std::size_t i = 0; i < segments; ++i) {
         const auto at = [&](double r, std::size_t k, double c) {
             const double angle = 2 * pi * static_cast<double>(k % segments) / static_cast<double>(segments);
             return frame.at(r * std::cos(angle), r * std::sin(angle), c);
         };
         if (inner > 0) {
-            quad(at(inner, i, reach), at(outer, i, reach), at(outer, i + 1, reach), at(inner, i + 1, reach), color);
-            quad(at(inner, i, 0), at(inner, i, reach), at(inner, i + 1, reach), at(inner, i + 1, 0), color);
+            quad(at(inner, i, projection), at(outer, i, projection), at(outer, i + 1, projection),
+                 at(inner, i + 1, projection), color);
+            quad(at(inner, i, 0), at(inner, i, projection), at(inner, i + 1, projection), at(inner, i + 1, 0), color);
         } else {
-            faceted.triangle(faceted.vertex(at(0, i, reach), color), faceted.vertex(at(outer, i, reach), color),
-                             faceted.vertex(at(outer, i + 1, reach), color));
+            faceted.triangle(faceted.vertex(at(0, i, projection), color),
+                             faceted.vertex(at(outer, i, projection), color),
+                             faceted.vertex(at(outer, i + 1, projection), color));
         }
-        quad(at(outer, i, reach), at(outer, i, 0), at(outer, i + 1, 0), at(outer, i + 1, reach), color);
+        quad(at(outer, i, projection), at(outer, i, 0), at(outer, i + 1, 0), at(outer, i + 1, projection), color);
     }
 }
 
-void Masonry::bar(const Frame& frame, double angle, double r0, double r1, double half_width, double reach, Rgb color) {
+void Masonry::bar(const Frame& frame, double angle, double r0, double r1, double half_width, double projection,
+                  Rgb color) {
     const Vec3 along = std::sin(angle) * frame.right + std::cos(angle) * frame.up;
     const Vec3 across = cross(along, frame.out);
-    const Vec3 foot = frame.at(0, 0, reach);
+    const Vec3 foot = frame.at(0, 0, projection);
     quad(foot + r0 * along - half_width * across, foot + r0 * along + half_width * across,
          foot + r1 * along + half_width * across, foot + r1 * along - half_width * across, color);
 }

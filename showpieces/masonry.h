@@ -5,56 +5,57 @@
 
 namespace hogel::showpieces {
 
-/// The coordinates of a wall: a to the right, b up, c out of the wall.
+/// Coordinates of a wall: a to the right, b up, c out of the wall.
 struct Frame {
     Vec3 origin, right, up, out;
 
     Vec3 at(double a, double b, double c) const { return origin + a * right + b * up + c * out; }
 };
 
-/// An opening with a round arch, in a wall's coordinates.
+/// Opening with a round arch, in a wall's coordinates.
 struct Opening {
     double center, half_width, sill, spring;
-    std::size_t segments;  ///< of the half circle
+    std::size_t segments;  ///< number of segments of the half circle
 
-    /// Point i of the outline, grown by `grow`, from the left foot (0) along the arch to the right foot (segments + 2).
+    /// Returns point i of the outline, offset by `grow`, from the left foot (0) along the arch to the right foot
+    /// (segments + 2).
     std::pair<double, double> outline(std::size_t i, double grow = 0) const;
 };
 
-/// Builds stone structures of blocks and small patches, fine enough for shadows at the vertices.
+/// Builds stone structures of blocks and small patches, fine enough for shading at the vertices.
 class Masonry {
   public:
     scene::MeshBuilder faceted;  ///< each block has its own vertices and shade of stone
     scene::MeshBuilder smooth;
 
-    /// A rectangle a0..a1 × b0..b1 of a wall in courses of blocks.
+    /// Adds a rectangle a0..a1 × b0..b1 of a wall in courses of blocks.
     void wall(const Frame& frame, double a0, double a1, double b0, double b1, Rgb stone);
-    /// Such a wall around an opening, which must lie inside the rectangle (its sill may lie on the lower edge).
+    /// Adds a wall around an opening, which must be inside the rectangle (its sill may be on the lower edge).
     void wall_with_opening(const Frame& frame, double a0, double a1, double b0, double b1, const Opening& opening,
                            Rgb stone);
-    /// The sides of an opening, `depth` into the wall.
+    /// Adds the sides of an opening, `depth` into the wall.
     void reveal(const Frame& frame, const Opening& opening, double depth, Rgb stone);
-    /// A reveal closed by a pane at its back.
+    /// Adds a reveal closed by a pane at its back.
     void recess(const Frame& frame, const Opening& opening, double depth, Rgb stone, Rgb pane);
-    /// A moulding of the given width around an opening, projecting by `reach`.
-    void archivolt(const Frame& frame, const Opening& opening, double width, double reach, Rgb stone);
-    /// A block that projects from a wall by `reach`.
-    void slab(const Frame& frame, double a0, double a1, double b0, double b1, double reach, Rgb stone);
-    /// A box in world coordinates, with faces cut into patches no longer than `patch`.
+    /// Adds a moulding of the given width around an opening, projecting by `projection`.
+    void archivolt(const Frame& frame, const Opening& opening, double width, double projection, Rgb stone);
+    /// Adds a block that projects from a wall by `projection`.
+    void slab(const Frame& frame, double a0, double a1, double b0, double b1, double projection, Rgb stone);
+    /// Adds a box in world coordinates, with faces divided into patches no longer than `patch`.
     void box(Vec3 low, Vec3 high, Rgb stone, double patch);
-    /// A corner pillar of alternately wide and narrow blocks around `foot`, the centre of its base.
+    /// Adds a corner pillar of alternately wide and narrow blocks around `foot`, the centre of its base.
     void quoins(Vec3 foot, double half_width, double height, double block, Rgb stone);
-    /// A flat ring (or disc, inner = 0) on a wall, projecting by `reach`.
-    void ring(const Frame& frame, double inner, double outer, double reach, Rgb color, std::size_t segments);
-    /// A flat bar on a wall from radius r0 to r1 in the direction `angle` (0 up, clockwise).
-    void bar(const Frame& frame, double angle, double r0, double r1, double half_width, double reach, Rgb color);
-    /// A square pyramid in rows of tiles, with a slight flare at its foot.
+    /// Adds a flat ring (or disc, inner = 0) on a wall, projecting by `projection`.
+    void ring(const Frame& frame, double inner, double outer, double projection, Rgb color, std::size_t segments);
+    /// Adds a flat bar on a wall from radius r0 to r1 in the direction `angle` (0 up, clockwise).
+    void bar(const Frame& frame, double angle, double r0, double r1, double half_width, double projection, Rgb color);
+    /// Adds a square pyramid in rows of tiles, with a slight flare at its foot.
     void pyramid(Vec3 foot, double half_width, double height, std::size_t rows, Rgb tile);
-    /// A ball and a point on top of a roof.
+    /// Adds a ball and a point on top of a roof.
     void spire(Vec3 foot, Rgb ball, Rgb point);
-    /// A hall with a gabled roof and arched windows, from `foot` (the middle of its left end) to the right.
+    /// Adds a hall with a gabled roof and arched windows, from `foot` (the middle of its left end) to the right.
     void hall(Vec3 foot, double length, double half_depth, double eaves, double ridge, Rgb stone, Rgb trim, Rgb pane);
-    /// An oval of grass.
+    /// Adds an oval of grass.
     void lawn(Vec3 center, double half_width, double half_depth);
     void tree(Vec3 foot, double height);
 

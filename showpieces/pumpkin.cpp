@@ -13,18 +13,18 @@ namespace {
 // Lengths in this file are arbitrary (the pumpkin is about one unit in radius); fit_scene gives them their size.
 using std::numbers::pi;
 constexpr int ribs = 14;
-constexpr double height = 0.78;        // of the body above its middle
-constexpr double depth_squash = 0.68;  // of the depth to the width
+constexpr double height = 0.78;        // height of the body above its middle
+constexpr double depth_squash = 0.68;  // ratio of the depth to the width
 constexpr double wall = 0.1;
 constexpr Vec3 flame_tip{0.03, -0.27, 0.12};
 
-/// The depth of the groove between two ribs at an azimuth: 1 at its bottom, 0 on the ribs.
+/// Returns the depth of the groove between two ribs at an azimuth: 1 at its bottom, 0 on the ribs.
 double groove(double azimuth) {
     const double s = std::sin(0.5 * ribs * (azimuth + pi / ribs) + 0.35 * std::sin(3 * azimuth + 1));
     return scene::square(1 - std::sqrt(s * s + 0.004) / std::sqrt(1.004));
 }
 
-/// A point of the body at an azimuth (0 in front) and an elevation; `thickness` below the skin.
+/// Returns a point of the body at an azimuth (0 in front) and an elevation, `thickness` below the skin.
 Vec3 body(Parameter at, double thickness) {
     const double around = std::cos(at.b), up = std::sin(at.b);
     const double inner = thickness / wall;  // grooves fade towards the inside
@@ -112,7 +112,7 @@ Mesh skin(const CarvedGrid& grid) {
     return std::move(builder.mesh);
 }
 
-/// The inner wall and the cut through the wall. It emits a little light, for flesh is translucent.
+/// Returns the inner wall and the cut through the wall. They emit some light, because flesh is translucent.
 Mesh flesh(const CarvedGrid& grid) {
     constexpr Rgb pale{0.95f, 0.60f, 0.20f}, rind{0.90f, 0.38f, 0.07f};
     constexpr std::uint32_t layers = 2;
@@ -135,7 +135,7 @@ Mesh flesh(const CarvedGrid& grid) {
     return std::move(builder.mesh);
 }
 
-/// A bent, twisted, five-ridged stalk with a flared foot.
+/// Returns a bent, twisted, five-ridged stalk with a flared foot.
 Mesh stem() {
     constexpr std::size_t columns = 25, rows = 12;
     constexpr Rgb green{0.22f, 0.25f, 0.07f}, brown{0.30f, 0.20f, 0.08f}, cut{0.55f, 0.47f, 0.25f};
@@ -205,7 +205,7 @@ Mesh flame() {
     return std::move(builder.mesh);
 }
 
-/// A round slab of slate, with more vertices where shadows and candlelight fall.
+/// Returns a round slab of slate, with more vertices where shadows and candlelight fall.
 Mesh ground() {
     constexpr std::size_t columns = 60, rows = 16;
     constexpr double top = -0.605, radius = 1.09;

@@ -13,7 +13,7 @@
 namespace hogel {
 namespace {
 
-// A row for a scene that is made without progress reports.
+// Returns the table row of a scene without progress reports.
 SceneInfo row(std::string name, std::string text, Scene (*make)(double)) {
     return {std::move(name), std::move(text),
             [make](double hologram_size, const Progress&) { return make(hologram_size); }};

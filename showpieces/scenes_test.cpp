@@ -127,7 +127,7 @@ TEST(Builtin, scenes_are_the_same_every_time) {
 
 using Point = std::array<double, 3>;
 
-/// For each edge, the number of triangles that traverse it in one direction minus those in the other.
+/// Returns for each edge the number of triangles that traverse it in one direction minus the number in the other.
 std::map<std::array<Point, 2>, int> rims(const Scene& scene, const std::vector<std::string>& names) {
     std::map<std::array<Point, 2>, int> edges;
     for (const Mesh& mesh : scene.meshes) {

@@ -6,14 +6,14 @@
 
 namespace hogel::showpieces {
 
-// The scenes that are not analytic. All functions take the side of the hologram in metres.
+// Return the scenes that are not analytic. All functions take the side of the hologram in metres.
 Scene make_pumpkin(double hologram_size);
 Scene make_tower(double hologram_size);
 Scene make_church(double hologram_size);
 Scene make_chandelier(double hologram_size);
 Scene make_billiards(double hologram_size);
 
-// The church with its global solution of light, in 3.4 million triangles: [K] fig. 5.27.
+// Returns the church with its global solution of light, in 3.4 million triangles: [K] fig. 5.27.
 Scene make_church_radiance(double hologram_size, const Progress& progress);
 
 }  // namespace hogel::showpieces

@@ -25,7 +25,7 @@ constexpr Rgb copper{0.24f, 0.42f, 0.34f};
 constexpr Rgb glass{0.035f, 0.045f, 0.07f};
 constexpr Rgb gold{0.80f, 0.55f, 0.16f};
 
-/// The frame of one of the four walls, with its origin at the middle of its foot.
+/// Returns the frame of one of the four walls, with its origin at the middle of its foot.
 Frame wall_frame(int side, double distance) {
     const double angle = 0.5 * pi * side;
     const Vec3 out{std::sin(angle), 0, std::cos(angle)}, right{std::cos(angle), 0, -std::sin(angle)};
@@ -99,7 +99,7 @@ void clock_storey(Masonry& masonry) {
     band(masonry, high, clock_top, 1.2, trim);
 }
 
-/// The bell: lip, waist and shoulder.
+/// Returns the bell: lip, waist and shoulder.
 Mesh bell() {
     constexpr std::array<std::pair<double, double>, 13> profile{{{0.0, 0.14},
                                                                  {0.40, 0.02},
