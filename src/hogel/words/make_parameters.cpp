@@ -35,7 +35,7 @@ void MakeParameters::declare(Parameters& parameters, bool with_plane_waves) {
         seed->acts_if(acts_on({Output::hologram, Output::photographs}));
     parameters.group("Camera",
                      acts_on({Output::photographs, Output::speckle_free_photographs, Output::ray_photographs}));
-    parameters.positive_length("--eye-distance", eye_distance, "Of the lens from the hologram's plane")
+    parameters.positive_length("--eye-distance", eye_distance, "Distance of the lens from the hologram plane")
         .sets_parameter("eye")
         .sets_parameter("focus");
     parameters.positive_length("--pupil", pupil, "Diameter of the lens");
@@ -47,7 +47,7 @@ void MakeParameters::declare(Parameters& parameters, bool with_plane_waves) {
         .default_text(fmt::format("up to {}", defaults.looks))
         .acts_if([this] { return is_one_of({Output::photographs}) && !waves.is_speckle_free(); });
     waves.declare_speckle(parameters).acts_if(acts_on({Output::photographs, Output::speckle_free_photographs}));
-    parameters.count("--pupil-samples", pupil_samples, "Points of the pupil in a photograph by rays")
+    parameters.count("--pupil-samples", pupil_samples, "Sample points of the pupil in a photograph by rays")
         .acts_if(acts_on({Output::ray_photographs}));
     render.declare(parameters);
 }

@@ -161,8 +161,9 @@ void PhotoParameters::declare(Parameters& parameters) {
         .acts_if(
             [this] { return waves.source == PhotographSource::hogels && waves.has_looks && !waves.is_speckle_free(); });
     waves.declare_speckle(parameters).acts_if([this] { return waves.source == PhotographSource::hogels; });
-    parameters.text("--exposure", exposure, "NUMBER|auto", "What linear values are multiplied by in PNG, or auto")
-        .acts_if([this] { return display == "intensity" && !is_linear; });
+    parameters.text("--exposure", exposure, "NUMBER|auto", "Factor for linear values in PNG, or auto").acts_if([this] {
+        return display == "intensity" && !is_linear;
+    });
     parameters.choice("--display", display, {"intensity", "log", "phase"}, "intensity|log|phase",
                       "What a photograph by waves shows:"
                       "\nintensity: linear light"
