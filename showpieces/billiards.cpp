@@ -141,7 +141,6 @@ void add_lamps(Scene& scene) {
     }
 }
 
-/// Returns a round carpet.
 Mesh carpet() {
     constexpr std::size_t columns = 64, rows = 30;
     scene::MeshBuilder builder;

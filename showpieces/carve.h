@@ -8,7 +8,6 @@
 
 namespace hogel::showpieces {
 
-/// Point of a surface's parameter plane.
 struct Parameter {
     double a = 0, b = 0;
 };

@@ -16,7 +16,6 @@ constexpr double hook = 1.25;
 
 constexpr Rgb gold{0.72f, 0.47f, 0.15f}, old_gold{0.46f, 0.27f, 0.08f}, wax{0.86f, 0.80f, 0.66f};
 
-/// Tier of arms; there are two.
 struct Tier {
     std::size_t arms;
     double first_angle, root, reach, candle;  // root and candle: heights of the arms' roots and the candles' feet

@@ -313,7 +313,6 @@ void Masonry::hall(Vec3 foot, double length, double half_depth, double eaves, do
             {middle, foot.y, foot.z + side * half_depth}, {1.0 * side, 0, 0}, {0, 1, 0}, {0, 0, 1.0 * side}};
         hall_side(frame, length, half_depth, eaves, ridge, stone, trim, pane);
     }
-    // At the right end.
     hall_gable({{foot.x + length, foot.y, foot.z}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, half_depth, eaves, ridge, stone);
 }
 

@@ -55,7 +55,6 @@ class Masonry {
     void spire(Vec3 foot, Rgb ball, Rgb point);
     /// Adds a hall with a gabled roof and arched windows, from `foot` (the middle of its left end) to the right.
     void hall(Vec3 foot, double length, double half_depth, double eaves, double ridge, Rgb stone, Rgb trim, Rgb pane);
-    /// Adds an oval of grass.
     void lawn(Vec3 center, double half_width, double half_depth);
     void tree(Vec3 foot, double height);
 

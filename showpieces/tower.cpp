@@ -32,9 +32,9 @@ Frame wall_frame(int side, double distance) {
     return {distance * out, right, {0, 1, 0}, out};
 }
 
-/// A course of stone around the tower that projects from it.
-void band(Masonry& masonry, double low, double high, double reach, Rgb color) {
-    masonry.box({-reach, low, -reach}, {reach, high, reach}, color, 0.16);
+/// Adds a square course of stone around the tower, which projects from the walls.
+void band(Masonry& masonry, double low, double high, double half_side, Rgb color) {
+    masonry.box({-half_side, low, -half_side}, {half_side, high, half_side}, color, 0.16);
 }
 
 void slit_window(Masonry& masonry, const Frame& wall, double center, double low, double spring, double half) {
@@ -82,8 +82,8 @@ void clock(Masonry& masonry, const Frame& wall, double height) {
         const double angle = pi / 6 * hour;
         masonry.bar(face, angle, 0.35, 0.425, hour % 3 == 0 ? 0.028 : 0.015, 0.035, dark);
     }
-    masonry.bar(face, 0.3 * pi, -0.08, 0.29, 0.03, 0.05, dark);     // the hour
-    masonry.bar(face, -0.37 * pi, -0.09, 0.42, 0.02, 0.065, dark);  // and the minute
+    masonry.bar(face, 0.3 * pi, -0.08, 0.29, 0.03, 0.05, dark);     // hour hand
+    masonry.bar(face, -0.37 * pi, -0.09, 0.42, 0.02, 0.065, dark);  // minute hand
     masonry.ring(face, 0, 0.04, 0.08, gold, 12);
 }
 
@@ -152,7 +152,7 @@ void belfry(Masonry& masonry) {
     masonry.box({-0.99, clock_top - 0.02, -0.99}, {0.99, clock_top + 0.005, 0.99}, shade_stone, 0.2);
 }
 
-/// The roof with corbels under the eaves, tiles and a finial.
+/// Adds the roof with corbels under the eaves, tiles and a finial.
 void roof(Masonry& masonry) {
     for (int side = 0; side < 4; ++side) {
         const Frame wall = wall_frame(side, half_width);

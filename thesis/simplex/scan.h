@@ -22,7 +22,6 @@ double crossing(const std::array<double, Size>& a, const std::array<double, Size
     return (weight_a * a[axis::s] + weight_b * b[axis::s]) / (weight_a * a[axis::q] + weight_b * b[axis::q]);
 }
 
-/// Range of the included numbers.
 struct Extent {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 

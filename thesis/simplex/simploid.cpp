@@ -42,7 +42,6 @@ struct ProjectedTriangle {
     }
 };
 
-// A range of numbers.
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -197,7 +196,6 @@ class SimploidRenderer final : public Renderer, public CountsVisits {
         float* depth_ = nullptr;
     };
 
-    // Rays of a tile with one V.
     class Slab {
       public:
         Slab(const SimploidRenderer& renderer, const SlabRays& rays, const HogelRange& range, std::uint64_t* words,

@@ -71,7 +71,6 @@ struct SlabRows {
         return scan + rounding * (rows + std::abs(slope) * depths);
     }
 
-    /// Returns whether a triangle of the block may cover a row.
     bool may_show(const TriangleBlock& block) const {
         const float a = slope * block.min_depth, b = slope * block.max_depth, tolerance = margin(block);
         return !(block.max_row - std::min(a, b) < -tolerance || block.min_row - std::max(a, b) > last + tolerance);

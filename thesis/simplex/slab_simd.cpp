@@ -22,7 +22,6 @@ void DrawBands(std::span<const Band> bands, const SlabRays& rays, std::uint64_t*
 #else
 using FloatTag = hn::CappedTag<float, TriangleBlock::size>;
 
-// Triangles in the lanes.
 std::size_t FindInRows(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found) {
     const FloatTag d;
     const hn::RebindToUnsigned<FloatTag> du;
@@ -142,7 +141,6 @@ class TriangleLanes {
     Doubles fast_[3];
 };
 
-// Directions in the lanes.
 class BandDrawer {
   public:
     BandDrawer(const SlabRays& rays, std::uint64_t* words, Visits& visits)

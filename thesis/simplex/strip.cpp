@@ -15,7 +15,6 @@ std::uint16_t index_of(const ProjectedPoint& point, std::vector<ProjectedPoint>&
     return static_cast<std::uint16_t>(index);
 }
 
-// Returns whether two simplices share all corners but one.
 bool share_a_face(const Strip<4>::Corners& a, const Strip<4>::Corners& b) {
     return std::ranges::count_if(a, [&](std::uint16_t corner) { return std::ranges::count(b, corner) > 0; }) == 4;
 }

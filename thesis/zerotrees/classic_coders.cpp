@@ -83,7 +83,6 @@ class ClassicCoder : public TileCoder {
     }
 
   protected:
-    // Replaces a tile by the coefficients of its channels.
     wavelets::Pyramid to_coefficients(LightFieldTile& tile) const {
         if (content_ == Content::amplitude)
             for (float& value : tile.radiance.elements()) value = std::sqrt(std::max(value, 0.0f));

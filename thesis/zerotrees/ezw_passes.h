@@ -13,7 +13,6 @@ namespace hogel::zerotrees {
 
 enum class EzwSymbol { positive, negative, zerotree, isolated };
 
-// Context of a symbol.
 struct EzwContext {
     bool leaf;            // a leaf, which cannot be an isolated zero
     bool not_a_zerotree;  // its subtree has a found coefficient, so it cannot be a zerotree

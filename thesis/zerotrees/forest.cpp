@@ -11,7 +11,6 @@
 namespace hogel::zerotrees {
 namespace {
 
-// Extent of a band along one axis.
 struct Side {
     std::size_t begin, extent;
     std::vector<std::size_t> parents;  // [position in the band]: position of the parent along the axis

@@ -37,7 +37,6 @@ void check_jpeg4d_size(const wavelets::Pyramid& pyramid, std::size_t size) {
                     fmt::format("jpeg4d: {} values given, expected the {} of the pyramid", size, pyramid.size()));
 }
 
-// Returns the largest level of all values.
 double max_level(const Blocks& blocks, std::span<const float> values, const Quantisation& quantisation) {
     double max_steps = 0;
     const auto min_magnitudes = min_values(blocks, quantisation);

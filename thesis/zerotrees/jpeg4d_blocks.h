@@ -128,7 +128,6 @@ class SparseLevels {
     std::array<std::int32_t, max_levels> levels_;
 };
 
-// Quantises a block.
 void quantise_block(const Blocks::Kind& kind, const float* block, std::span<const float> min_magnitudes,
                     const Quantisation& quantisation, SparseLevels& levels);
 

@@ -42,7 +42,6 @@ struct DifferenceModels {
     std::array<coding::BitModel, max_exponent + 1> more;
 };
 
-// Returns the estimated bits of a difference.
 double bits_of_difference(int difference) { return difference == 0 ? 0.2 : 4 + std::abs(difference); }
 
 std::size_t bits_of(std::uint32_t magnitude) { return static_cast<std::size_t>(std::bit_width(magnitude)); }

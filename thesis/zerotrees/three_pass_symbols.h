@@ -39,15 +39,15 @@ class BitSymbols {
 
     int tree(int symbol, int above, bool leaf) {
         // Large coefficients are likely next to each other.
-        const std::size_t before = tree_before_ == 0 ? 0u : tree_before_ < above ? 1u : 2u;
-        context_ = 2 * before + (tree_before_that_ > 0 ? 1u : 0u);
+        const std::size_t size_class = previous_tree_ == 0 ? 0u : previous_tree_ < above ? 1u : 2u;
+        context_ = 2 * size_class + (second_previous_tree_ > 0 ? 1u : 0u);
         const auto up = static_cast<std::size_t>(above);
         if (!coder.bit(models_->tree_found[up][leaf][context_], symbol >= 0))
             symbol = -1;
         else
             symbol = unary(models_->tree_less[up][leaf][context_], symbol, above);
-        tree_before_that_ = tree_before_;
-        tree_before_ = symbol < 0 ? 0 : above - symbol;
+        second_previous_tree_ = previous_tree_;
+        previous_tree_ = symbol < 0 ? 0 : above - symbol;
         return symbol;
     }
     int node(int symbol, int tree_bits) {
@@ -78,7 +78,7 @@ class BitSymbols {
 
     std::unique_ptr<ThreePassModels> models_;
     std::size_t context_ = 0;
-    int tree_before_ = 0, tree_before_that_ = 0;  // bits of the last two subtrees
+    int previous_tree_ = 0, second_previous_tree_ = 0;  // bits of the last two subtrees
 };
 
 // Symbols as in [K] 4.4.2: Δp_t and Δp_n each from an alphabet of the numbers −1 to b_max − 1, a bit for the sign, and

@@ -141,7 +141,6 @@ void for_each_sample(const LightFieldTile& tile, std::size_t t, std::size_t s, c
     }
 }
 
-// Contents of a tile's bytes.
 template <class Rule>
 struct ExactTile {
     std::span<const std::uint8_t> prediction;

@@ -41,7 +41,6 @@ RenderCost cost_of_region(const LightFieldSource& face, const LightFieldRequest&
     return cost;
 }
 
-// Returns the grids of all colours.
 std::vector<FieldGrid> grids_of(std::span<const LightFieldGrid> faces, const HologramRequest& request) {
     std::vector<FieldGrid> grids;
     for (const Channel& channel : request.channels)

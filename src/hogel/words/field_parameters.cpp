@@ -12,7 +12,6 @@
 namespace hogel {
 namespace {
 
-// Returns the name of an option in errors.
 std::string name_in_errors(std::string option) {
     option.erase(0, option.find_first_not_of('-'));
     std::ranges::replace(option, '-', '_');
@@ -42,7 +41,6 @@ void require_hologram(const std::string& name, const FieldParameters& field, con
                         fmt::format("{} is a hologram, which contains this; leave it out", name));
 }
 
-// Returns lengths as in messages.
 std::string short_lengths(const std::vector<double>& lengths) {
     std::vector<std::string> texts;
     for (const double length : lengths) std::erase(texts.emplace_back(format_length(length)), ' ');
@@ -165,7 +163,6 @@ void make_images(const FieldParameters& field, OpenedFields& opened, const Progr
     }
 }
 
-// Returns the help of --values.
 std::string help_of_values(bool brief) {
     if (brief) return ": amplitude, phase, intensity; for pairs real-imaginary, amplitude-phase";
     return " in arrays and pictures:\namplitude, phase: phases in radians, or as whole numbers in a phase code\n"

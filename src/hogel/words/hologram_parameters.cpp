@@ -15,7 +15,6 @@
 namespace hogel {
 namespace {
 
-// Names of the averages of lobes, and of phases.
 const std::vector<std::string> average_names{"radiance", "amplitude"};
 const std::vector<std::string> phase_names{"random", "fixed", "designed"};
 

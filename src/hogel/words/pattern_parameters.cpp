@@ -33,7 +33,6 @@ bool is_one_of(const std::string& encoding, std::initializer_list<Encoding> thes
     return std::ranges::count(these, encodings().find(encoding).encoding) > 0;
 }
 
-// Returns the metadata of the pattern of one wavelength.
 Metadata pattern_entries(const Pattern& pattern, double wavelength, const Modulator& modulator, Encoding encoding) {
     const std::string name = format_length(wavelength);
     Metadata entries{{"efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency)}};

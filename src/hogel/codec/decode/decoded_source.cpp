@@ -169,7 +169,6 @@ class DecodedStream {
     mutable work::LruCache<Index, Decoder> recent_;
 };
 
-// One face of a stream.
 class DecodedFace final : public LightFieldSource {
   public:
     // @param depth   the same face of the depth stream, or null

@@ -39,7 +39,6 @@ class BlockSearch {
     // Tries disparities around the best one, distant ones first. Returns whether a better one was found, which is then
     // the result.
     bool look_around();
-    // Returns whether the best prediction is good enough to stop.
     bool good() const { return best_.cost < good_enough_; }
     // Returns the minimum cost of blocks for which look_around() is worthwhile.
     float wide_search_cost() const { return wide_search_cost_; }

@@ -7,7 +7,6 @@
 
 namespace hogel::codec::encode {
 
-// Returns the samples of a block.
 inline format::BlockSamples block_of(const format::Plane& plane, std::size_t x, std::size_t y) {
     format::BlockSamples block;
     for (std::size_t r = 0; r < format::block_side; ++r)

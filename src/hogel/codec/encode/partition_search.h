@@ -16,7 +16,6 @@ class PartitionSearch {
     // Starts with a block with the samples `target`, and tries its candidates as disparities of partitions.
     // @param rate_weight   λ, the squared error equivalent to one bit
     void begin(const format::BlockSamples& target, const format::Candidates& candidates, float rate_weight);
-    // Tries one more disparity.
     void add(int disparity);
     // Returns the best partitions so far, or nullopt, and stores their prediction.
     std::optional<format::Block> best(format::BlockSamples& prediction);

@@ -12,7 +12,6 @@ class Search {
   public:
     Search(double low, double high, double start, double slope) : low_(low), high_(high), next_(start), slope_(slope) {}
 
-    // Returns the argument to evaluate next.
     double next() const { return next_; }
     // Stores the function's value at next(). Returns whether it is within the band.
     bool add(double value);

@@ -30,7 +30,6 @@ StepBand band_of_sqnr(double sqnr);
 // @param tolerance   allowed relative deficit, or for an embedded code excess
 StepBand band_of_bytes(double bytes, double tolerance, bool embedded);
 
-// Outcome of a search.
 enum class StepFound {
     in_band,
     beside_band,  // the nearest figure on the better side; figures on the other side exist, too

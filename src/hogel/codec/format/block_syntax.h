@@ -13,7 +13,6 @@ namespace hogel::codec::format {
 
 using Levels = std::array<std::int32_t, block_samples>;
 
-// Syntax elements of one block.
 struct Block {
     std::uint8_t mode = mode_intra;
     std::uint8_t intra_predictor = 0;     // if intra

@@ -8,7 +8,6 @@
 namespace hogel::codec::format {
 namespace {
 
-// Returns the number of bits of the magnitude.
 int size_of(std::int32_t number) {
     const auto bits = static_cast<std::uint32_t>(number);
     return std::bit_width(number < 0 ? 0 - bits : bits);

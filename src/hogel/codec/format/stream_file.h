@@ -40,7 +40,6 @@ DirectionCross counted(const StreamInfo& info);
 // Returns the coder for the tiles of a part. Throws Error(usage) for a method that does not exist.
 std::unique_ptr<TileCoder> coder_of_part(const StreamInfo& info, const LightFieldGrid& part);
 
-// Layer of a tile in a file.
 struct StreamEntry {
     std::uint64_t offset, bytes;
     std::uint32_t checksum;
@@ -55,7 +54,6 @@ class StreamWriter {
     // @param depth   file with the depth stream that info.depth describes
     StreamWriter(const std::filesystem::path& path, const StreamHeader& info, core::RawFile* into = nullptr,
                  const core::RawFile* depth = nullptr);
-    // Discards all tiles.
     void restart();
     // @param layers   ends of the tile's layers; small tiles may have fewer layers than the stream
     void append(std::span<const std::uint8_t> tile, std::span<const std::size_t> layers);
