@@ -2,7 +2,7 @@
 // How fast the page of `hogel view` is, both ends on this machine: pictures a second and the time from input to picture while
 // something is dragged, and the time to the first picture.
 //
-// usage: node speed.mjs HOGEL INPUT [SECONDS [BY [OPTIONS OF hogel view ...]]]     BY: rays or waves; writes a row of docs/view.md
+// usage: node speed.mjs HOGEL INPUT [SECONDS [BY [OPTIONS OF hogel view ...]]]     BY: rays or waves; writes a row of a table
 // The processor time that a picture takes at both ends says, on a machine that has other work too, what a free one could do.
 import {readFileSync, readdirSync} from "node:fs";
 import {ended, launch, ready, serve} from "./server.mjs";

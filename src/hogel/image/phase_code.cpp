@@ -17,7 +17,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi, full_turn = 2 * pi;
 
-// Phase codes of other programs (docs/holograms.md names the functions).
+// Phase codes of other programs (docs/holograms-from-elsewhere.md names the functions).
 std::vector<PhaseCodeInfo> known_codes() {
     return {
         {"hogel", "256 to a turn, 0 is black", {full_turn, 0, false, false}},
