@@ -52,10 +52,12 @@ class RankCommunicator final : public Communicator {
 
     /// Connects stop sources: a stop request on any rank is passed to the sources of all ranks.
     void stop_with(std::stop_source stop);
-    /// Returns the combined outcome of all ranks at the end of the work, successful or not: a failure of one is the
-    /// failure of all. Returns nothing if this rank has failed and others do not answer within `patience`.
-    /// @param silent  called once if this rank has failed, with the ranks that did not answer within 1/3 s; on ranks
-    ///                other than the root only with the root
+    /// Returns the combined outcome of all ranks at the end of the work: if one rank has failed, all ranks get its
+    /// failure. A rank that has succeeded waits without limit. A rank that has failed waits 1/3 s, then `patience`, and
+    /// then returns nothing.
+    /// @param silent  called once by a rank that has failed, after the 1/3 s, unless its argument would be empty. On
+    ///                the root it gets all ranks without a report; on another rank it gets {0}, unless the root has
+    ///                told this rank to stop
     std::optional<Report> settle(Report local, std::chrono::seconds patience,
                                  const std::function<void(const std::vector<std::size_t>&)>& silent = {});
 

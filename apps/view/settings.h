@@ -12,8 +12,8 @@
 
 namespace hogel::view {
 
-/// Parameters of the viewable. A page changes some of them ("hogels", "rotate") by the same texts as on the command
-/// line. Therefore the commands that the page offers reproduce what it shows.
+/// Parameters of the light field or hologram on the page. A page changes some of them ("hogels", "rotate"), with values
+/// written as on the command line. Therefore the command lines on the page reproduce what it shows.
 class Settings {
   public:
     using Words = std::map<std::string, std::string>;

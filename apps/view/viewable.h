@@ -26,7 +26,7 @@ struct Reading {
     std::optional<double> phase;      ///< of the hologram's nearest sample, radians
 };
 
-/// Histogram of the levels of a modulator.
+/// Number of pixels at each level of a modulator that shows the middle of a hologram.
 struct LevelCounts {
     std::string encoding;
     std::array<std::size_t, 256> counts{};
@@ -71,7 +71,8 @@ class Viewable {
                               const Progress& progress) = 0;
     /// Returns the sharpness of a hologram at many depths. Throws Error(usage) for a light field.
     virtual FocusSearch find_focus(const Progress& progress);
-    /// Returns the histogram of levels of a hologram. Throws Error(usage) for a light field.
+    /// Encodes the middle of the hologram (first wavelength, at most 1024 × 1024 samples) as a pattern for a modulator
+    /// with 256 levels. Returns the number of pixels at each level. Throws Error(usage) for a light field.
     /// @param encoding  a name from encodings()
     virtual LevelCounts count_levels(const std::string& encoding, const Progress& progress);
 

@@ -9,8 +9,9 @@
 
 namespace hogel::view {
 
-/// Photographs by waves, one viewpoint at a time. The holograms are computed on first use, because that takes long and
-/// many users need only rays. Not thread-safe.
+/// Takes pictures of the viewer's holograms by wave optics, one viewpoint at a time. Computes the holograms at the
+/// first picture, because that takes long and many pages show only pictures by rays. Caches the pupil bands of the last
+/// viewpoint. Not thread-safe.
 class Waves {
   public:
     /// Computes holograms of one or three wavelengths with `looks` looks each. photograph() passes on its exceptions

@@ -70,8 +70,9 @@ struct SpeckleFreeCamera {
 /// hologram, and for a tilted plane in focus with a thin lens.
 struct PlaneWaveCamera {
     ScratchOptions scratch;
-    /// Distance from a thin lens ([K] 6.12) to a film parallel to it, metres; the lens equation gives the focal length.
-    /// The picture shows spherical aberration, coma and astigmatism of the lens. 0: a perfect lens.
+    /// Distance from the lens to a film parallel to it, metres. 0: an ideal lens that images the plane in focus without
+    /// aberrations. Otherwise a thin lens ([K] 6.12) with spherical aberration, coma and astigmatism; its focal length
+    /// follows from the lens equation.
     double film_distance = 0;
 };
 

@@ -127,10 +127,12 @@ HOGEL_API InputKind input_kind(const std::string& name);
 /// Opens a light field file, or imports a set of views with default options.
 HOGEL_API LightField open_light_field_or_views(const std::filesystem::path& path, const Progress& progress = {});
 
-/// Opens the light field in a file or a set of views for holograms, with_common_directions(). If the request is for
-/// basis fringes and the file has coefficients of such fringes, it opens the coefficients and sets
-/// request.of_coefficients.
-/// @param any_transform  whether to set the request's transform to that of the file's coefficients
+/// Opens a light field file or a set of views, and resamples it by with_common_directions(). A request for basis
+/// fringes may instead use the coefficients of basis fringes in a stream of the coder "fringes": then the function
+/// opens the coefficients and sets request.of_coefficients. Streams with a tone curve, coarser chrominance, a fixed
+/// focal plane or another layout than faces are always opened as radiances.
+/// @param any_transform  true: opens coefficients of any transform, and sets the request's transform to it; false:
+///                       opens coefficients only if they have the request's transform
 HOGEL_API LightField open_for_holograms(const std::filesystem::path& path, HologramRequest& request,
                                         bool any_transform);
 

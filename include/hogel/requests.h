@@ -28,8 +28,9 @@ namespace hogel {
 // row per option to a table, which the struct must outlive. A function of the struct returns the library's request.
 // resolve() stores the values selected by the work, and decides which options have an effect; files store these.
 
-/// Parses a directional light, "X,Y,Z:COLOUR:STRENGTH": the direction towards it, its colour (default: white) and its
-/// irradiance. Throws Error(usage).
+/// Parses a directional light, "X,Y,Z:COLOUR:STRENGTH". X,Y,Z is the direction from the scene to the light, of any
+/// length; Light::direction is the opposite, of unit length. COLOUR (default: white) times STRENGTH (default: 2.2) is
+/// the irradiance of a surface that faces the light. Throws Error(usage).
 HOGEL_API Light parse_light(const std::string& text);
 /// Returns the text of a light for parse_light(). Empty for a point light, a cone, or a light without shadows.
 HOGEL_API std::string light_text(const Light& light);

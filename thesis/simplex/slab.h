@@ -77,8 +77,9 @@ struct SlabRows {
     }
 };
 
-/// Writes the indices of all triangles of a block that cover a row, and of few others, in the block's order. Returns
-/// their number. `found` has TriangleBlock::size elements; elements after the last found one may change.
+/// Finds the triangles of a block that may cover one of the rows: all that do, and a few others. Writes their indices
+/// in the block's order, and returns their number.
+/// @param found  array of TriangleBlock::size elements; elements beyond the returned number are undefined
 std::size_t find_in_rows_plain(const TriangleBlock& block, const SlabRows& rows, std::uint32_t* found);
 extern decltype(find_in_rows_plain)& find_in_rows;
 
@@ -162,8 +163,8 @@ class SlabRays {
     std::vector<double> slopes_, steps_;
 };
 
-/// Packs the depth and the triangle seen by a sample: the depth's ordered bits above the triangle's index. The smallest
-/// word is the nearest triangle, and of triangles at the same depth the first, for any order of drawing.
+/// Packs a triangle seen by a sample into one word: order-preserving bits of the depth above the triangle's index. The
+/// smallest word is the nearest triangle and, at equal depth, the one with the lowest index, for any order of drawing.
 inline std::uint64_t seen_word(float depth, std::uint32_t triangle) {
     return std::uint64_t{render::ordered_bits(depth + 0.0f)} << 32 | triangle;  // −0 is 0
 }

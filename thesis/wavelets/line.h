@@ -19,8 +19,8 @@ class WaveletLine {
   public:
     WaveletLine(const Wavelet& wavelet, std::size_t length);
 
-    /// forward() divides sample k by before[k] before its steps and multiplies row k by after[k] after them; inverse()
-    /// inverts both.
+    /// Sets scale factors. forward() first divides sample k of the line by before[k]. After its steps it multiplies row
+    /// r by after[r], where rows hold the even samples first, then the odd ones. inverse() undoes both.
     void set_scales(const std::vector<double>& before, const std::vector<double>& after);
 
     /// Returns the index of the line's sample in a row of the tile, before forward() and after inverse().

@@ -11,10 +11,10 @@ namespace hogel::coding {
 /// Returns the largest magnitude. Throws Error(usage) if a value is not finite.
 float max_magnitude(std::span<const float> values);
 
-/// Rule of [K] 4.4.2 that predicts the size of zerotrees from a histogram h of magnitudes. A significant coefficient
-/// with a level of n = b_max − p bits takes n + c bits, where c is the overhead of the trees; all coefficients take
-/// Σ_{p < b_max} h(p) (b_max − p + c). Histograms of the tiles of a light field are added. Magnitudes are counted in 32
-/// nearly uniform bins per octave: the bits of floats without their lowest 18.
+/// Predicts the size of zerotrees from a histogram of magnitudes ([K] 4.4.2). A magnitude from 2^(n−1) to 2^n quantiser
+/// steps takes n + c bits, where c is the overhead of the trees; smaller magnitudes take none. The histogram has 32
+/// nearly uniform bins per octave: the bin of a magnitude is its binary32 number without the lowest 18 bits. Histograms
+/// of the tiles of a light field can be added.
 class MagnitudeHistogram {
   public:
     MagnitudeHistogram();
@@ -26,13 +26,14 @@ class MagnitudeHistogram {
     /// Constructs the histogram from its maximum and counts.
     MagnitudeHistogram(float max, std::vector<std::uint64_t> counts) : counts_(std::move(counts)), max_(max) {}
 
-    /// Returns the bits that the rule predicts.
+    /// Returns the predicted number of bits for a quantiser step.
     double bits(double step, double c) const;
-    /// Returns the step, to 0.1 %, with a predicted size of `bits`, or the largest magnitude if its size is larger; 1
-    /// if all values are 0. Extends [K], where steps differ by factors of two: bits() is nearly continuous in the step.
+    /// Returns the smallest step, to 0.1 %, between max() / 2^29 and max() with a predicted size of at most `bits`.
+    /// Returns max() if no step is large enough, and 1 if all values are 0. Extends [K], where steps differ by factors
+    /// of two: the predicted size is nearly continuous in the step.
     double step(double bits, double c) const;
-    /// Returns the step of [K], T_max·2^(−b_max), with b_max from 1 to 29 for which the ratio of the predicted size to
-    /// `bits` is nearest to 1.
+    /// Returns the step of [K], max() · 2^(−b) with an integer b from 1 to 29: the one with the smallest
+    /// |log(bits(step, c) / bits)|. Returns 1 if all values are 0.
     double step_of_planes(double bits, double c) const;
 
   private:

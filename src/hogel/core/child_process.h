@@ -57,7 +57,8 @@ class ChildProcess {
 
     /// Reads bytes from the child. Throws ChildFailure if the child has ended, Error(cancelled) on a stop request.
     void read(void* to, std::size_t bytes);
-    /// Sends bytes to the child. Throws as read() does. The child must read them at once, unless they are few.
+    /// Sends bytes to the child. Blocks while the pipe is full, even after a stop request, so the child must read long
+    /// messages without delay. Throws ChildFailure if the child has ended.
     void send(const void* from, std::size_t bytes);
 
     /// In the child: raises the limits, e.g. after opening another file.

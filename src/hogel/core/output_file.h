@@ -9,8 +9,9 @@
 namespace hogel::core {
 
 /// A file that appears under its name only when it is complete. Writes to a temporary file in the folder of the target;
-/// commit() renames the temporary, the destructor removes it. Follows symbolic links. The next process that writes the
-/// same file removes the temporary of a killed process, because the kernel has dropped its lock.
+/// commit() renames the temporary. Without commit(), the destructor removes the temporary unless Unfinished::kept is
+/// given. Follows symbolic links. The next process that writes the same file removes the temporary of a killed process,
+/// because the kernel has dropped its lock.
 class OutputFile {
   public:
     /// Fate of a file without commit(): removed, or kept under the target's name with ".part" appended.

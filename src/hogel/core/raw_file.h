@@ -13,7 +13,8 @@ class RawFile {
     /// `create` truncates an existing file; `kept` keeps its content. `unnamed` creates a file without a name in the
     /// folder `path`; it disappears when it is closed or the process ends.
     enum class Mode { read, write, create, kept, unnamed };
-    /// Throws Error(bad_input) if `mode` is read, Error(cannot_write) otherwise.
+    /// Opens or creates a file. On failure throws Error(bad_input) for Mode::read, and Error(cannot_write) for other
+    /// modes. Mode::read refuses a path that is not a regular file.
     /// @param name  name of the file in error messages
     RawFile(const std::filesystem::path& path, Mode mode, const std::filesystem::path& name);
     ~RawFile();

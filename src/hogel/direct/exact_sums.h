@@ -14,8 +14,9 @@ struct SampleRow {
     double x = 0, y = 0, pitch = 0;
 };
 
-/// Adds a point's spherical wave at the samples of a row, except where hidden[i] (may be null) or where the wave is too
-/// steep for the pitch. The plain and the fast version agree to rounding.
+/// Adds a point's spherical wave to the tile_side samples of a row, given by their real and imaginary parts. Skips
+/// samples with hidden[i] (`hidden` may be null), and samples at which the wave exceeds half a cycle per pitch in x or
+/// y (too_steep()). The plain and the fast version agree to rounding.
 void add_wave_plain(const ScenePoint& point, const FieldGrid& grid, const SampleRow& row, const bool* hidden,
                     double* real, double* imaginary);
 extern decltype(add_wave_plain)& add_wave;

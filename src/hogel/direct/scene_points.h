@@ -19,8 +19,10 @@ struct ScenePoint {
     double cycles;    ///< phase, [0, 1)
 };
 
-/// Samples the triangles of a scene by points with random phases, at most `spacing` apart, at least one per triangle.
-/// Moves points nearer to the hologram plane than nearest_depth() to that depth.
+/// Samples the triangles of a scene by points with random phases. Cuts each triangle into n² equal triangles with sides
+/// of at most options.spacing metres, and puts a point at the centre of each. Drops triangles without area and points
+/// without radiance. Moves points nearer to the hologram plane than nearest_depth() to that depth. Throws Error(usage)
+/// for more than 10⁸ points.
 std::vector<ScenePoint> surface_points(const ShadedScene& scene, const FieldGrid& grid,
                                        const SceneHologramOptions& options);
 
@@ -31,15 +33,17 @@ struct SceneEdge {
 };
 std::vector<SceneEdge> scene_edges(const ShadedScene& scene, const SceneHologramOptions& options);
 
-/// Samples the edges of a scene by points `spacing` apart, each for an area of spacing². Throws Error(usage), as
-/// surface_points() does, for more than 10⁸ points.
+/// Samples the edges of a scene by points with random phases. Divides each edge into equal parts of about
+/// options.spacing metres, at least one, and puts a point at the middle of each. A point represents a strip as long as
+/// its part and options.spacing wide. Moves points as surface_points() does. Throws Error(usage) for more than 10⁸
+/// points.
 std::vector<ScenePoint> edge_points(const ShadedScene& scene, const FieldGrid& grid,
                                     const SceneHologramOptions& options);
 
 /// Returns the minimum depth of a point, metres. The pitch undersamples the waves of nearer points.
 double nearest_depth(const FieldGrid& grid);
 
-/// Returns a random phase in [0, 1) that depends only on the arguments.
+/// Returns a random phase in cycles, [0, 1), that depends only on the arguments, the seed and the channel.
 double random_cycles(const SceneHologramOptions& options, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
 /// Ray between a point and a position on the hologram, towards the viewer: from a point behind it, to a point in front.

@@ -5,8 +5,8 @@
 
 namespace hogel::exchange {
 
-/// Mapping to hogels: hogel (i, j) reads view (row, column) at x = x0 + i + dx·column, y = y0 + j + dy·row. The row
-/// step is `step_y` instead of 1 if pixels are not square.
+/// Position of a hogel in each view, in pixels of the view, possibly fractional: hogel (i, j) reads view (row, column)
+/// at x = x0 + i + dx·column, y = y0 + step_y·j + dy·row. step_y differs from 1 if pixels are not square.
 struct Shear {
     double x0 = 0, y0 = 0, dx = 0, dy = 0, step_y = 1;
     std::size_t width = 0, height = 0;  ///< size of the area that all views show, pixels

@@ -56,8 +56,9 @@ auto guarded_write(const std::string& what, const Body& body) {
     }
 }
 
-/// Returns the bytes of a picture file; ignores file.bytes. Throws Error(bad_input) for a missing file, a file that is
-/// not regular, and an unknown format, without reading the rest.
+/// Returns the bytes of a picture file. Reads the first 18 bytes before the rest, and throws Error(bad_input) if they
+/// belong to no known format. Also throws Error(bad_input) for a missing file and for a file that is not regular.
+/// @param file  name for error messages; its bytes are ignored
 std::vector<unsigned char> bytes_of_file(const std::filesystem::path& path, const PictureBytes& file);
 
 /// Reads a picture file as stored. Throws as read_image() does.

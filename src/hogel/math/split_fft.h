@@ -7,8 +7,8 @@
 
 namespace hogel::math {
 
-/// Discrete Fourier transforms of sixteen adjacent lines, [position][part][line], part = real, imaginary. In place and
-/// without reordering. Uses hogel's own transforms, independently of HOGEL_FFT.
+/// Discrete Fourier transforms of sixteen adjacent lines, in place and without reordering. The layout is
+/// [position][part][line], part = real, imaginary. Uses hogel's own transforms, independently of HOGEL_FFT.
 class SplitFft {
   public:
     static constexpr std::size_t together = 16;
@@ -22,10 +22,11 @@ class SplitFft {
     SplitFft& operator=(SplitFft&&) noexcept;
 
     std::size_t size() const;
-    /// Sums with e^{-2πi jm/n}; with imaginary before real parts in input and output, sums with e^{+2πi jm/n}.
-    /// @param lines  aligned to a cache line
+    /// Transforms the lines: X[m] = Σ_j x[j] e^{-2πi jm/n} with n = size(). X[m] is at position place(m). If the caller
+    /// swaps real and imaginary parts in input and output, the sign of the exponent is positive.
+    /// @param lines  size() · row floats, aligned to a cache line
     void transform(float* lines) const;
-    /// Returns the position of a frequency in the result.
+    /// Returns the position of frequency m = `frequency` in the result.
     std::uint32_t place(std::size_t frequency) const;
 
   private:

@@ -28,10 +28,11 @@ struct SpreadWindow {
 /// of the hologram. The fraction beyond m resolution cells is 2/π²m, the mean of J₀² + J₁² (Rayleigh).
 double light_left_out(const SpreadWindow& window, double span_x, double span_y, double cell);
 
-/// Edge of a pupil whose PSF is limited to a SpreadWindow. The transform of (PSF · window) is the disc convolved with
-/// the transform of the window. The edge is nearly straight over the width of that transform, so the convolution is the
-/// integral of the one-dimensional transform, a function of the distance from the edge. The window is a rectangle
-/// convolved with the transform of a Kaiser window: the transmission is exactly 0 or 1 beyond reach().
+/// Soft edge of a pupil with a PSF limited to a SpreadWindow. Multiplying the PSF by the window convolves the pupil's
+/// disc with the window's Fourier transform. The edge is nearly straight over the width of this transform, so the
+/// transmission depends only on the distance from the edge: it is an integral of the transform along one line. The
+/// transform is a sinc function times a Kaiser window. It ends at a finite distance, so the transmission is exactly 0
+/// or 1 beyond reach().
 class PupilEdge {
   public:
     /// @param wavelength  metres

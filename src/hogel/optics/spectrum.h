@@ -78,8 +78,9 @@ Grid grid_of(const Spectrum& spectrum, std::size_t width, std::size_t height);
 /// @param communicator  as for spectrum_of(); every rank has its columns of the spectrum
 Wave wave_of(const Spectrum& spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch = {},
              Communicator* communicator = nullptr);
-/// wave_of() for a distributed spectrum, which is freed during the transform. Each rank gets the rows that it wants.
-/// @param wanted  wanted(rank): the rows that a rank wants
+/// As wave_of(), for a spectrum with columns distributed over the ranks. Returns on each rank the rows wanted(rank) of
+/// the wave. Frees the spectrum during the transform.
+/// @param wanted  returns the rows of the wave that a rank is to get
 Wave wave_of(Spectrum spectrum, std::size_t width, std::size_t height, const ScratchOptions& scratch,
              Communicator& communicator, const std::function<distributed::LineRange(std::size_t rank)>& wanted);
 

@@ -5,8 +5,8 @@
 
 namespace hogel::optics {
 
-/// Returns a zero spectrum at the frequencies in `band` that the window represents around a carrier. Throws
-/// Error(usage) if there are none.
+/// Returns a spectrum of zeros. It has the frequencies of `band` (cycles per metre) that samples at the window's pitch
+/// represent around a carrier. Throws Error(usage) if there are none.
 Spectrum empty_spectrum(const Grid& window, double wavelength, const Band& band, double carrier_x, double carrier_y,
                         const ScratchOptions& scratch);
 

@@ -39,18 +39,20 @@ struct CarriedOrder {
     double clearance = 0;  ///< from the middle of the order to the nearest other light, cycles per sample
 };
 
-/// Encodes a field with |F| ≤ 1 as amplitudes in [0, 1]. Sets `order`. Throws Error(usage) if orders would overlap.
+/// Encodes a field F, |F| ≤ 1, as the pattern of an amplitude modulator, with values in [0, 1], by options.encoding.
+/// Sets `order` to the diffraction order that reproduces F. Throws Error(usage) if diffraction orders would overlap.
 Array<float, 2> encode_amplitude(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                  double wavelength, CarriedOrder& order);
 
 /// Returns the field's aperture, shifted to the order and at most 1/1.1 of its clearance in radius.
 Aperture aperture_around(const CarriedOrder& order, Aperture of_field);
 
-/// Encoding::gerchberg_saxton: returns phases in cycles [0, 1), by alternating projections in squares.
+/// Computes the phases of a pattern for Encoding::gerchberg_saxton, in cycles [0, 1), by alternating projections in
+/// squares of the field.
 Array<float, 2> iterate_phases(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                const Progress& progress);
 
-/// Number of iterations of a phase pattern, and the result.
+/// Number of iterations that computed a phase pattern, and its correlation with the field.
 struct Convergence {
     std::size_t iterations = 0;
     double correlation = 0;  ///< behind the aperture, before rounding to levels
@@ -58,10 +60,12 @@ struct Convergence {
 
 class FieldBand;
 
-/// Encoding::gradient: returns phases in cycles [0, 1), by descent until the correlation with the field stops rising.
+/// Computes the phases of a pattern for Encoding::gradient, in cycles [0, 1), by descent of FieldBand's error. Stops
+/// when the correlation with the field stops rising, or after options.iterations steps (0: max_descent_steps). Stores
+/// the number of steps and the final correlation in `convergence`.
 Array<float, 2> descend_phases(View<const std::complex<float>, 2> field, const FieldBand& band,
                                const PatternOptions& options, Convergence& convergence, const Progress& progress);
-/// Defaults for PatternOptions::iterations = 0: alternating projections, and the maximum of a descent.
+/// Numbers of iterations if PatternOptions::iterations is 0: of alternating projections, and the limit of a descent.
 inline constexpr std::size_t projections = 40, max_descent_steps = 200;
 
 /// Band of a field (see Pattern::aperture): 1.1 times the aperture's radius, at most 0.4 cycles per sample.
@@ -112,8 +116,9 @@ class FieldBand {
     Aperture aperture_;
 };
 
-/// Returns the first of `phase`, `double_phase` and `gradient` with sufficient_correlation in all patterns, otherwise
-/// the one with the highest minimum, and its patterns.
+/// Tries the encodings phase, double_phase and gradient in this order. Returns the patterns of the first encoding that
+/// gives every pattern at least sufficient_correlation. If there is none, returns the patterns of the encoding with the
+/// highest minimum correlation over its patterns.
 template <class Encode>
 SuitablePatterns find_suitable(PatternOptions options, const Progress& progress, const Encode& encode) {
     SuitablePatterns best;

@@ -20,22 +20,24 @@ struct PictureJob {
     friend bool operator==(const PictureJob&, const PictureJob&) = default;
 };
 
-/// Returns whether each picture belongs to one job: holograms with known hogel spectra, photographed by the
-/// hogel-spectra camera or speckle-free. All ranks compute each other picture together.
+/// Returns whether picture_jobs() divides the pictures of this camera model into jobs. It does so if all holograms are
+/// stereograms and the model is the speckle-free camera, or the band camera unless it reads samples or has a vertical
+/// diffuser. All ranks together compute any picture of other models.
 bool is_made_in_jobs(const Fields& holograms, const CameraModel& model);
 
-/// Returns the jobs of all pictures for which is_made_in_jobs() holds. If pictures are shared among ranks or
-/// checkpointed, a job is one colour by all cameras, or by the cameras of four viewpoints if that does not change any
-/// picture; otherwise all colours by all cameras, which may share rays.
-/// @param order  indices of the colours in the order of their photographs, slowest first
+/// Divides the pictures of all models with is_made_in_jobs() into jobs. With several ranks or a checkpoint, a job has
+/// one colour and all cameras; for the speckle-free camera it has the cameras of four viewpoints, which does not change
+/// any picture. Otherwise a model is one job with all colours and cameras, which may share rays.
+/// @param order  indices of the colours, slowest first
 std::vector<PictureJob> picture_jobs(const Fields& holograms, std::span<const std::size_t> order,
                                      std::span<const Camera> cameras, std::span<const CameraModel> models);
 
-/// Computes the pictures of a job one after the other. Returns them as [colour][camera] of the job, row-major.
+/// Computes the pictures of a job: all its cameras at once; all colours at once if they can share rays, otherwise one
+/// colour after the other. Returns them as [colour][camera] of the job, row-major.
 std::vector<Image> photograph(const PictureJob& job, const Fields& holograms, std::span<const Camera> cameras,
                               std::span<const CameraModel> models, const Progress& progress);
 
-/// Copies the pictures of a job to the channels of the pictures of all colours.
+/// Copies the single-channel pictures of a job into the channels of its colours in `pictures`, [camera].
 void put(const PictureJob& job, std::span<const Image> job_pictures, std::span<Image> pictures);
 
 }  // namespace hogel::pipeline

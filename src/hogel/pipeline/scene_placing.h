@@ -7,8 +7,8 @@
 
 namespace hogel::pipeline {
 
-/// Throws if no file of this name exists. The error of a name like a path reports a missing file, of another name
-/// an unknown scene.
+/// Throws unless a file or a built-in scene of this name exists. If the name contains "." or "/", throws
+/// Error(bad_input) for a missing file; otherwise Error(usage), with the nearest name of a built-in scene.
 void require_scene_file(const std::string& name);
 
 /// Returns the built-in scene, rotated and placed for the request's hologram.

@@ -109,7 +109,10 @@ inline void see(NearestTriangle& nearest, std::uint32_t index, const ObliqueTria
     if (hit && hit.depth >= min_depth && depth < nearest.depth) nearest = {depth, index};
 }
 
-/// Returns the point where the ray through (s, t) meets triangle `index`, projected along the ray's direction.
+/// Returns the point at which the ray through (s, t) meets a triangle: barycentric weights, and the depth ζ in metres,
+/// infinite if the ray misses.
+/// @param index     index of the triangle in its scene
+/// @param triangle  the same triangle, projected along the direction of the ray
 inline VisiblePoint visible_point(std::size_t index, const ObliqueTriangle& triangle, double s, double t) {
     const ObliqueTriangle::Hit hit = triangle.at(s, t);
     return {index, static_cast<float>(hit.weights[0]), static_cast<float>(hit.weights[1]),

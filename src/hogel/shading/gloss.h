@@ -34,9 +34,11 @@ struct GlossyPoint {
     double roughness = 1;              ///< at least min_roughness
 };
 
-/// Returns the light in the lobe: the sum of Reflection::lobe over the lamps, in single precision. Both versions give
-/// the same bits: they first sum the lamps at each index of a block, then these sums.
-/// @param visibility  arriving fraction of each lamp's light, `lamps.size()` values; any value for dark lamps
+/// Returns the light that a point reflects by its glossy lobe: the sum of Reflection::lobe over the lamps, in single
+/// precision. Both versions give the same bits, because they add in the same order: first the lamps with the same index
+/// within their block, then these sums.
+/// @param visibility  fraction of each lamp's light that arrives, `lamps.size()` values; ignored for the dark padding
+///                    lamps
 LightInLobe gloss_plain(const LampTable& lamps, const float* visibility, const GlossyPoint& point);
 extern decltype(gloss_plain)& gloss;
 

@@ -48,8 +48,8 @@ MeshTextures occlusion_textures(const Scene& scene, bool filtered);
 Vec3 mapped_normal(const ShadedScene& scene, const SurfaceTexture& map, const std::array<std::uint32_t, 3>& vertices,
                    const std::array<float, 3>& weights, double footprint, Vec3 normal, float scale);
 
-/// Adds the emission of surfaces with an emission texture, at each sample, to the lighting of a model, which may be
-/// null. Returns `lighting` if there are no such surfaces.
+/// Returns a lighting model that adds the light of emission textures, evaluated at each sample of the light field, to
+/// `lighting` (null: no other light). Returns `lighting` if no surface has an emission texture.
 std::shared_ptr<const SampleLighting> with_maps(const Scene& scene, const ShadingOptions& options,
                                                 std::shared_ptr<const SampleLighting> lighting);
 

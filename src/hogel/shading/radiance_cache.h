@@ -96,8 +96,9 @@ class RadianceCache {
     /// Returns the grid of a triangle, for loops that read points directly.
     const LightGrid& grid(std::size_t index) const { return grids_[index]; }
     std::span<const LightGrid> grids() const { return grids_; }
-    /// Returns the first three values of four points, each followed by a zero: a point of triangle `index`, the next
-    /// one in its row, and the two in the next row. Fills them if necessary.
+    /// Returns R, G, B and a zero for four grid points of triangle `index`: [0] at (row, column), [1] at (row, column +
+    /// 1), [2] at (row + 1, column), [3] at (row + 1, column + 1). Indices beyond the grid are replaced by the last
+    /// ones. Computes points that are not filled.
     using Corners = std::array<std::array<float, 4>, 4>;
     Corners corners(const ShadedScene& scene, std::size_t index, std::size_t row, std::size_t column) const;
 

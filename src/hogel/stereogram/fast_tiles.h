@@ -26,8 +26,10 @@ class FastTiles {
     /// @param phases  [look], shared by all hogels; empty: independent random phases for every hogel
     FastTiles(std::size_t side, const DirectionPhases& phases);
 
-    /// Computes moduli in the layout that synthesise() takes: [hogel][row/16][column][row mod 16].
-    /// @param of_roots  whether `values` are amplitudes √L, not radiances
+    /// Computes the moduli of the DFT coefficients of several hogels, as FrequencyGrid::amplitudes(), for synthesise():
+    /// [hogel][row/16][column][row mod 16].
+    /// @param values    [hogel][ray], radiances L
+    /// @param of_roots  true: `values` are amplitudes √L
     void prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
                  View<float, 2> moduli) const;
 

@@ -29,8 +29,8 @@ class FrequencyGrid {
                   Interpolation interpolation = Interpolation::linear);
 
     /// Returns the grid of one line of a hologram with horizontal parallax only: frequencies along x, from one row of
-    /// directions. The amplitude has the factor √(λ/d · λ/line_pitch), which gives lines with independent phases the
-    /// right radiance in all vertical directions.
+    /// directions. Multiplies amplitudes by √(λ/d · λ/line_pitch), d = pitch of the hogels, all in metres. Lines with
+    /// independent phases then have the right radiance in all vertical directions.
     /// @param faces  a front, optionally with left and right sides; each has one row of directions
     static FrequencyGrid of_line(std::span<const LightFieldGrid> faces, std::size_t samples, double line_pitch,
                                  double wavelength, Interpolation interpolation = Interpolation::linear);

@@ -60,15 +60,19 @@ extern decltype(random_row_of_any_side_plain)& random_row_of_any_side;
 /// Computes out = moduli · phases. `phases` has the layout of `out`.
 void shared_waves(std::span<const float> phases, const float* moduli, float* out);
 
-/// Transposes sixteen rows [columns][part][row]. Columns x … x + 15, x a multiple of sixteen, become rows
-/// [row][part][column] at to + x/16 · block_stride.
+/// Transposes sixteen rows of complex numbers from [column][part][row] to blocks of sixteen columns,
+/// [block][row][part][column mod 16].
+/// @param columns       a multiple of sixteen
+/// @param block_stride  distance of the blocks in `to`, floats
 extern void (&transpose_rows)(const float* from, std::size_t columns, float* to, std::size_t block_stride);
 
-/// Computes to[row · to_stride + i] = from[i][offset + row] for sixteen rows; zero for i beyond the given arrays.
+/// Gathers sixteen rows from up to sixteen arrays: to[row · to_stride + i] = from[i][offset + row]; zero for i beyond
+/// the given arrays.
 extern void (&gather_rows)(std::span<const float* const> from, std::size_t offset, float* to, std::size_t to_stride);
 
-/// Transposes the same rows of sixteen hogels, [row][columns][hogel]: hogel h goes to [columns][row] at to +
-/// h·hogel_stride.
+/// Transposes sixteen rows of up to sixteen hogels from [row][column][hogel] to [hogel][column][row].
+/// @param hogels        number of hogels to store; `from` has sixteen
+/// @param hogel_stride  distance of the hogels in `to`, floats
 extern void (&transpose_hogels)(const float* from, std::size_t columns, std::size_t hogels, float* to,
                                 std::size_t hogel_stride);
 

@@ -27,8 +27,9 @@ enum class Sides { both, fronts };
 struct TriangleMesh {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of positions
-    /// Returns whether a triangle is solid at the point with these weights of its second and third vertex; rays pass
-    /// through holes. Null if all triangles are solid everywhere. Called from several threads at once.
+    /// Tells whether a triangle is opaque at the point with these barycentric weights of its second and third vertex;
+    /// rays pass through other points. Empty if all triangles are opaque everywhere. Called from several threads at
+    /// once.
     std::function<bool(std::uint32_t triangle, float b1, float b2)> is_solid = {};
 };
 

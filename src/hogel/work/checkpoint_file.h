@@ -33,8 +33,8 @@ constexpr std::size_t checkpoint_record_head_bytes(std::size_t numbers) {
     return (3 + numbers) * sizeof(std::uint64_t);
 }
 
-/// Returns the part of a file before its records.
-/// @param work  lines that identify the work by its options and inputs
+/// Returns the header of a checkpoint file: everything before the first record.
+/// @param work  lines with the options and inputs of the work; a resumed run compares them with its own
 std::string checkpoint_header(const std::vector<std::string>& work);
 
 /// Read-only access to a checkpoint file.

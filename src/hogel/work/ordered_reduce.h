@@ -40,20 +40,22 @@ Sent<std::vector<Value>> sent_vector() {
             [](MessageReader& from) { return from.get_vector<Value>(); }};
 }
 
-/// ordered_reduce() over the ranks of a communicator, for results as bytes.
-/// @param in_flight    as for local_ordered_reduce(); on average tiles_in_flight() results per rank are alive, on the
-///                     root. 1: each rank computes one result at a time, on the calling thread
+/// Does the work of ordered_reduce() over the ranks of a communicator, for results that are serialised to bytes.
+/// @param in_flight    as for local_ordered_reduce(). The root holds at most tiles_in_flight() results times the number
+///                     of ranks. 1: each rank computes one result at a time, on the calling thread
 /// @param max_message  bytes; longer results are sent in several messages
 void ordered_reduce_in_ranks(Communicator& communicator, std::size_t n, std::size_t in_flight,
                              const std::function<std::string(std::size_t)>& body,
                              const std::function<void(std::size_t, std::string_view)>& merge,
                              std::size_t max_message = std::size_t{1} << 30);
 
-/// ordered_reduce() for results as bytes, with or without a communicator. Takes results of earlier runs from the log.
+/// Does the work of ordered_reduce() for results that are serialised to bytes. Uses the ranks of the communicator, if
+/// there is one. Within a ResumeScope, first merges the results that an earlier run left in the checkpoint.
 void ordered_reduce_bytes(std::size_t n, std::size_t in_flight, const std::function<std::string(std::size_t)>& body,
                           const std::function<void(std::size_t, std::string_view)>& merge, DoneBy by);
 
-/// Returns the average number of tiles per rank that are alive.
+/// Returns the maximum number of computed but unmerged results in ordered_reduce(), divided by the number of ranks: 4 ·
+/// in_flight. All of them may wait on the root. For estimates of memory.
 /// @param in_flight  as for local_ordered_reduce()
 std::size_t tiles_in_flight(std::size_t in_flight);
 

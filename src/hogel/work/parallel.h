@@ -25,7 +25,8 @@ void local_ordered_reduce(std::size_t n, std::size_t in_flight, const std::funct
 /// Needed for code that holds a lock or a promise for which bodies of other loops wait.
 void isolate(const std::function<void()>& body);
 
-/// Returns a number of results in flight for local_ordered_reduce() at which threads seldom wait for the merge.
+/// Returns a default for in_flight of local_ordered_reduce(), four results per thread: threads then seldom wait for the
+/// merge.
 inline std::size_t default_in_flight() { return 4 * thread_count(); }
 
 template <class Result>

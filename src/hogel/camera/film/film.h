@@ -61,10 +61,10 @@ using PupilWave = Array<math::PackedComplex, 2>;
 /// sines that the band reaches and the shown part of the film are computed. Each step works on all threads.
 class Film {
   public:
-    /// @param shown    film_area() of these cameras: the hologram and the visible surroundings
-    /// @param pupil    the widest of these cameras, at most that of the band
-    /// @param blur     the widest defocus_blur() of these cameras
-    /// @param samples  of the film per resolution cell
+    /// @param shown    film_area() of these cameras, metres: the hologram and the visible surroundings
+    /// @param pupil    largest pupil diameter of these cameras, metres; at most that of the band
+    /// @param blur     largest defocus_blur() of these cameras, direction sines
+    /// @param samples  number of film samples per resolution cell
     Film(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
          double blur, double samples = samples_a_cell);
 

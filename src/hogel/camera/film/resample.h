@@ -9,8 +9,10 @@
 
 namespace hogel::camera::film {
 
-/// Positions on sixteen lines at uniform steps of a direction sine: value i of a line is at offset + scale · s/√(square
-/// − s²), s = first + i · step. Either the scale or the square is the same for all lines.
+/// Positions, in samples, at which resample_lines() reads sixteen lines: uniform steps of a direction sine. Value i
+/// belongs to the sine s = first + i · step. Its position on line k is offset + scales[k] · s/√(squares[k] − s²).
+/// Squares are 1 minus the square of the other direction sine, so the fraction is the tangent of the direction. Either
+/// all scales or all squares are the same.
 struct TangentPositions {
     double first = 0, step = 0;
     double offset = 0;

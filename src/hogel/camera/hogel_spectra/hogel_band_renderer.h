@@ -74,11 +74,11 @@ class HogelBandRenderer {
     };
     auto scratch() const { return scratch_pool_.take(); }
 
-    /// Renders the light of a chunk into the scratch, over its support in each band.
+    /// Renders the light of a chunk, a rectangle of hogels, into the scratch, over its support in each band.
     void render(const HogelChunk& chunk, const Looks& looks, Scratch& scratch) const;
 
-    /// Adds the light of a chunk, as render() left it in the scratch, to the packed bands.
-    /// @param packed_bands  [band][look]
+    /// Adds the light that render() has left in `scratch` for this chunk to the packed bands.
+    /// @param packed_bands  [band][look], numbers in compressed form
     void add(const Scratch& scratch, const HogelChunk& chunk,
              std::span<std::vector<camera::PackedBand>> packed_bands) const;
 

@@ -30,8 +30,9 @@ struct NarrowBand : BandGrid {
     static constexpr std::size_t tile_width = 512, tile_height = 384;
 };
 
-/// Computes several narrow bands from looks [first_look, first_look + looks) of a hologram in one pass over it. Returns
-/// bands[viewpoint][look][row][column], the demodulated and low-passed field, which does not depend on the number of
+/// Computes several narrow bands of looks first_look to first_look + looks − 1 of a hologram (a look is one set of
+/// random phases), in one pass over the hologram. Returns bands[viewpoint][look][row][column]: the field demodulated
+/// towards the viewpoint, low-passed and decimated by NarrowBand::factor. The result does not depend on the number of
 /// threads. With MPI, only the root receives it. Memory: the result, and per thread a strip of the hologram of at most
 /// eight tiles across and two down.
 std::vector<std::vector<Array<std::complex<float>, 2>>> compute_narrow_bands(const FieldSource& hologram,

@@ -30,7 +30,8 @@ struct Companding {
 /// Returns a light field that maps its radiances on reading.
 LightField companded(const LightField& light_field, const Companding& companding);
 
-/// Returns the histogram of the luminances of all faces. Reads the light field once, tile by tile on all threads.
+/// Returns the histogram of the absolute luminance of all rays of all faces: |R + G + B|/3, or that of the only
+/// channel. Reads the light field once, tile by tile on all threads of all ranks. All ranks get the sum.
 LuminanceHistogram luminance_histogram(const LightField& light_field, const Progress& progress = {});
 
 }  // namespace hogel::codec::format

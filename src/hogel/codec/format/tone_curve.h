@@ -17,10 +17,10 @@ class ToneCurve {
     static constexpr int low_bits = 20;  // number of low zero bits of a point
     static constexpr std::size_t max_points = 512;
 
-    /// @param first    the highest bits of the first point
-    /// @param values   y at each point from the first on
-    /// Throws Error(bad_input) unless there are 2 to max_points points, all normal numbers, and values that increase,
-    /// each within 2^±64 of its point.
+    /// @param first    the first point: the bits of its luminance as binary32, without the lowest 20
+    /// @param values   y at the first and the following points
+    /// Throws Error(bad_input) unless there are 2 to max_points points, all numbers are normal, the values increase,
+    /// and the ratio of each value to its point is between 2^−64 and 2^64.
     ToneCurve(std::uint32_t first, std::vector<float> values);
 
     /// Returns the luminance of point i.

@@ -18,8 +18,8 @@ class Unfolding {
     /// the front.
     explicit Unfolding(std::span<const LightFieldGrid> faces);
 
-    /// Returns the grid of the array, with the front's ΔU and ΔV; its U and V are valid only for directions on the
-    /// front.
+    /// Returns the grid of the array, with the steps ΔU and ΔV of the front. Its u() and v() are valid only in the
+    /// front's part of the array; for the sides use the grid of the face.
     const LightFieldGrid& grid() const { return grid_; }
     const DirectionCross& cross() const { return cross_; }
     /// First row and column of a face in the array.

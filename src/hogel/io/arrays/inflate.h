@@ -7,7 +7,7 @@
 
 namespace hogel::io::arrays {
 
-/// Deflated data expand at most 1032-fold; with some reserve.
+/// Largest accepted ratio of decompressed to compressed size: deflated data expand at most 1032-fold.
 constexpr std::size_t max_expansion = 1040;
 
 /// Part of the data that inflate() produces.
@@ -16,12 +16,13 @@ enum class Extent {
     all,    ///< everything; the checksum must be right
 };
 
-/// Decompresses zlib's format (RFC 1950) until `plain` is full. Returns false for damaged or too short data. Throws
-/// Error(not_built_in), naming `path`, in a build without zlib.
+/// Decompresses zlib's format (RFC 1950) into `plain`. Extent::first fills `plain` with the beginning of the data;
+/// Extent::all requires data of exactly plain.size() bytes with the right checksum. Returns false for other or damaged
+/// data. Throws Error(not_built_in), naming `path`, in a build without zlib, and Error(cancelled) for Extent::all.
 bool inflate(const std::filesystem::path& path, std::span<const unsigned char> packed, std::span<unsigned char> plain,
              Extent extent);
 
-/// As inflate(), for raw deflated data (RFC 1951), as in ZIP files, of exactly `plain.size()` bytes.
+/// As inflate() with Extent::all, for raw deflated data (RFC 1951) without a checksum, as in ZIP files.
 bool inflate_bare(const std::filesystem::path& path, std::span<const unsigned char> packed,
                   std::span<unsigned char> plain);
 

@@ -26,8 +26,8 @@ class SampleServer {
     SampleServer(std::filesystem::path file, std::string dataset, std::size_t axes, Element element,
                  std::size_t chunk_bytes);
 
-    /// Fills `to` with a box of samples of the element's type, row-major. Thread-safe. Throws Error(bad_input) if HDF5
-    /// fails, crashes or hangs, or if the file has changed; Error(cancelled).
+    /// Reads a box of the dataset into `to`, row-major, as numbers of the type that the constructor got. Thread-safe.
+    /// Throws Error(bad_input) if HDF5 fails, crashes or hangs, or if the file has changed; Error(cancelled).
     void read(const Box& box, void* to);
 
   private:

@@ -12,13 +12,16 @@ namespace hogel::optics::propagation {
 /// of the field and increase with the sample index: to the right along x, downwards along y.
 struct AxisPlan {
     Steps field, output, frequencies;
-    /// Light to the output has sideways paths within middle ± reach, metres.
+    /// Sideways path: the distance along this axis between the points at which a ray crosses the two planes. Paths that
+    /// lead from the field to the output are within middle ± reach, metres.
     double middle = 0, reach = 0;
-    /// Directions with a path longer by more than guard/2 fade out over a multiple of `fresnel`: √(λz) along the axis.
-    /// Metres.
+    /// fresnel: the Fresnel length √(λz)/cos^{3/2} θ of the most oblique direction that is kept; √(λz) along the z
+    /// axis. guard: the amplitude falls to one half at paths reach + guard/2 from `middle`, as ½ erfc of width
+    /// fresnel/√π. Metres.
     double fresnel = 0, guard = 0;
     double period = 0;  ///< inverse of the frequency step, metres; an even number of field samples
-    /// Sizes of the Fourier transforms from samples to frequencies and from frequencies to the output; 0: chirp-z.
+    /// Lengths of the FFTs from field samples to frequencies (inward) and from frequencies to output samples (outward).
+    /// 0: a chirp-z transform instead.
     std::size_t inward = 0, outward = 0;
     /// An edge of the band, at half a cycle per sample. `active`: light at the edge reaches the output. low, high: the
     /// range of remaining paths from any sample to any output sample, in periods.

@@ -58,8 +58,9 @@ struct EpipolarPlane {
     static constexpr std::uint64_t empty = ~std::uint64_t{0} << 32 | background;
 };
 
-/// Destination of the values of a plane's samples. The row of directions of column c begins at values[i] + c ·
-/// strides[i], for each value i of SpanValues; null for a value that is not needed.
+/// Destination of a plane's interpolated values: R, G, B and depth ζ in metres, or the only channel first (SpanValues).
+/// Column c of value i begins at values[i] + c · strides[i]; its directions are contiguous. A null pointer skips a
+/// value.
 struct PlaneOutput {
     float* values[4];
     std::size_t strides[4];

@@ -19,8 +19,8 @@ struct CutPlane {
 
 constexpr EpiSpan empty_span{1e30f, 1, 1e30f, 1};
 
-/// Position of a span on its triangle: end 0 on the edge from `lone` to `next`, end 1 on the edge to `last`
-/// (TriangleCut).
+/// Where the two ends of a span lie on its triangle: end 0 on the edge from corner `lone` to corner `next`, end 1 on
+/// the edge from `lone` to the third corner (TriangleCut).
 struct SpanOrigin {
     float weight0, weight1;  ///< of the lone corner, at the two ends
     std::uint32_t triangle;

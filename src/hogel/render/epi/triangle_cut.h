@@ -19,8 +19,9 @@ struct TriangleCut {
     Crossing end0, end1;
 };
 
-/// Cuts a triangle with corners (x, z) at these heights above the plane, one or two of them below 0. An edge is always
-/// cut from its lower to its upper end, so that triangles that share it get the same crossing bit for bit.
+/// Cuts a triangle by a plane. Corner i is at (x[i], z[i]) and height[i] above the plane; one or two heights are
+/// negative. An edge is always cut from its lower to its upper end, so that triangles that share it get the same
+/// crossing bit for bit.
 inline TriangleCut cut_triangle(const std::array<double, 3>& x, const std::array<double, 3>& z,
                                 const std::array<double, 3>& height) {
     // Uses tables and selections, because branches would be unpredictable.

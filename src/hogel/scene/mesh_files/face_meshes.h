@@ -29,8 +29,9 @@ struct FaceAttributes {
     bool any() const { return coordinates || colors || pictures; }
 };
 
-/// Builder of one mesh per picture. If faces have no attributes, it has all vertices of the file in order; otherwise
-/// only the used ones. A vertex with several pictures, colours or texture coordinates is duplicated.
+/// Builder of one mesh per texture picture of a file. If faces have no attributes, a mesh has all vertices of the file
+/// in order; otherwise only those that its faces use. A vertex is copied for each combination of picture, colour and
+/// texture coordinates that faces give it.
 class FaceMeshes {
   public:
     /// @param vertices  must outlive this

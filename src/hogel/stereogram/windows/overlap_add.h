@@ -15,7 +15,7 @@ namespace hogel::stereogram::windows {
 HogelLayout window_layout(const LightFieldGrid& light_field, const FieldGrid& grid);
 
 /// Makes a hologram of overlapping windows (OLAS).
-/// @param plain  forces the plain version, which large windows always use; the fast one computes sixteen hogels at once
+/// @param plain  true: computes one hogel at a time, as always for large windows; false: sixteen at once where possible
 std::shared_ptr<const FieldSource> make_overlap_add(const LightField& light_field, const FieldGrid& grid,
                                                     const HologramOptions& options, PointPhases phases,
                                                     bool plain = false);
