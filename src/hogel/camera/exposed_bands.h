@@ -22,7 +22,7 @@ struct ColourBands {
     bool preview = false;
 };
 
-/// Returns the viewpoints with the widest pupils of their cameras.
+/// Returns a Viewpoint for each shared viewpoint, with the largest pupil of its cameras.
 std::vector<Viewpoint> viewpoints_of(std::span<const SharedViewpoint> viewpoints, std::span<const Camera> cameras,
                                      bool preview);
 

@@ -12,8 +12,8 @@ inline constexpr double lines_apart = 32;
 
 /// Implements photograph_into() for a hologram behind a vertical diffuser (docs/notation.md, section 4): the sum of the
 /// intensities of its lines, each of which sends its light to all heights.
-/// @param separation  distance, see lines_apart, from which lines share a photograph; infinity: a photograph for each
-/// line
+/// @param separation  lines at least this far apart share a photograph, see lines_apart; infinity: a photograph per
+///                    line
 void photograph_lines(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
                       std::span<Image> pictures, const Progress& progress, double separation = lines_apart);
 

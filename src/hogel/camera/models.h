@@ -7,7 +7,7 @@
 
 namespace hogel::camera {
 
-/// Implements photograph_into() for one model each. Pictures change only after the checks that precede a photograph.
+/// Implement photograph_into(), each for one camera model. They check all arguments before they change a picture.
 void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const BandCamera& model,
                    std::span<Image> pictures, const Progress& progress);
 void photograph_by(const FieldSource& hologram, std::span<const Camera> cameras, const SpeckleFreeCamera& model,

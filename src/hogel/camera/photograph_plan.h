@@ -25,7 +25,7 @@ struct PhotographPlan {
     double bytes = 0;           ///< peak memory with one look at a time
     double bytes_per_look = 0;  ///< memory of each further look
 
-    /// Returns the number of looks out of `looks` that fit into memory at a time, at least one.
+    /// Returns the number of looks that fit into `memory` bytes at a time, from 1 to `looks`.
     /// @param share  ratio of the actual bytes of a look to bytes_per_look
     std::size_t looks_at_once(double memory, std::size_t looks, double share) const;
 
@@ -44,19 +44,20 @@ double narrow_band_bytes(const FieldGrid& hologram, const Vec3& viewpoint, doubl
 /// than one a photograph shows a single blur, and the waves that enter the pupil form no narrow band.
 void require_resolution(const FieldGrid& hologram, const Camera& camera, double cells = 1);
 
-/// Returns the plan with the least work. Throws Error(usage) if none fits, naming a pupil that would.
+/// Returns the plan with the least work that fits into `memory` bytes. Throws Error(usage) if none fits; the message
+/// names a pupil for which one would.
 /// @param windows  whether the hologram may be divided into windows
 PhotographPlan plan_photographs(const FieldGrid& hologram, std::span<const Camera> cameras, double memory,
                                 PhotographPlan::Windows windows = PhotographPlan::Windows::many);
 
-/// Returns the bytes of photographs that compute as many looks at a time as fit into memory.
+/// Returns the peak memory of photographs, bytes, if as many looks are computed at a time as fit into `memory` bytes.
 /// @param share  ratio of the actual bytes of bands to those of narrow bands
 double photograph_bytes(const FieldGrid& hologram, std::span<const Camera> cameras, double memory, std::size_t looks,
                         double share = 1);
 
-/// Whether all colours are synthesised together, from rays that are made once, with the bands of all colours in memory.
-/// Otherwise colours follow each other, which makes the rays again and needs a third of the memory. Clearing new memory
-/// takes 1 to 3 ns a byte, and a ray 1 to 4 ns; a hologram has about as many rays as samples.
+/// Returns whether to synthesise all colours together. Then rays are made once, and the bands of all colours are in
+/// memory. Otherwise colours follow each other, which makes the rays again and needs a third of the memory. Clearing
+/// new memory takes 1 to 3 ns a byte, and a ray 1 to 4 ns; a hologram has about as many rays as samples.
 inline bool renders_colours_together(double band_bytes, const Grid& hologram) {
     return band_bytes <= static_cast<double>(hologram.samples());
 }

@@ -9,8 +9,8 @@
 
 namespace hogel::camera {
 
-/// Directions from the centre of a lens at uniform steps of their sines (n_x, n_y): the sampling of the film. In it the
-/// Fourier transform leads to the plane of the pupil at any obliquity.
+/// Directions from the centre of a lens at uniform steps of their sines (n_x, n_y): the sampling of the film. A Fourier
+/// transform over these sines gives the light in the plane of the pupil, at any obliquity.
 struct SineGrid {
     std::size_t size_x = 0, size_y = 0;  ///< number of samples, a good size for a transform
     double first_x = 0, first_y = 0;     ///< sine of the first sample; n_x grows with the column, n_y with the row
@@ -25,7 +25,7 @@ struct SineGrid {
 
     double period_x() const { return static_cast<double>(size_x) * step; }
     double period_y() const { return static_cast<double>(size_y) * step; }
-    /// Returns the distance, in sines, that light may travel without wrapping around to a part that the film shows.
+    /// Returns the distance, in sines, by which light may spread on the film before it wraps around to a shown part.
     double room() const { return std::min(period_x() - farthest(x, shown_x), period_y() - farthest(y, shown_y)); }
     /// Returns the largest distance of a shown sine from one of the hologram.
     static double farthest(const Range& hologram, const Range& shown) {
@@ -41,7 +41,7 @@ Rectangle film_area(const Grid& hologram, const Rectangle& pictures, const Recta
 
 /// Returns a grid no coarser than the band, with room beside the shown area for all light that a camera follows.
 /// @param shown  film_area()
-/// @param pupil  the widest, metres
+/// @param pupil  largest diameter, metres
 /// @param blur   spread of light out of focus, in sines, see defocus_blur()
 SineGrid sine_grid(const narrow_band::BandGrid& band, const Grid& plane, const Rectangle& shown, double pupil,
                    double blur);

@@ -9,9 +9,9 @@ namespace hogel::optics {
 /// Multiplies a wave by a circular aperture with a soft edge. The edge limits the angle to which it diffracts light.
 void circular_aperture(Wave& wave, double center_x, double center_y, double diameter, const PupilEdge& edge);
 
-/// Multiplies a wave by |q − p|²/|c − p|² at a distance q − c from the centre c, for a point p at `path` from c.
-/// Propagation to p weights each point q of an aperture by cos θ/|q − p|, and cos θ is inverse to |q − p|. A lens that
-/// images p weights all points equally; this factor makes the weights equal.
+/// Multiplies a wave at each point q by |q − p|²/|c − p|², with the centre c of an aperture and the point p = c + path.
+/// Propagation to p weights each point q by cos θ/|q − p|, and cos θ is inverse to |q − p|. A lens that images p
+/// weights all points equally; this factor makes the weights equal.
 void weigh_alike(Wave& wave, double center_x, double center_y, Vec3 path);
 
 /// Multiplies a wave by a rectangular aperture with an edge one sample wide.

@@ -27,7 +27,8 @@ struct Spectrum {
     double wavelength = 0;  ///< metres
     std::ptrdiff_t first_column = 0,
                    first_row = 0;  ///< frequency of the first sample, in steps; rows are counted downwards
-    /// S as [row][column], row 0 at the highest f_y, in columns. May be distributed over the ranks of a communicator.
+    /// S as [row][column], row 0 at the highest f_y. In the column layout of SharedPlane; may be distributed over the
+    /// ranks of a communicator.
     distributed::SharedPlane samples;
 
     double frequency_x(double column) const { return (static_cast<double>(first_column) + column) / window.size_x(); }

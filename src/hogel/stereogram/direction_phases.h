@@ -15,9 +15,10 @@ namespace hogel::stereogram {
 /// Returns the series of random phases of hogel (s, t) for one look.
 PhaseSeries phase_series(const HologramOptions& options, std::size_t s, std::size_t t, std::size_t look);
 
-/// Phases shared by all hogels: for each look, e^{iφ} for each frequency of a hogel's Fourier transform.
-/// @param flat  designed for a flat fringe; otherwise random
+/// Phases shared by all hogels, [look][row][column]: e^{iφ} for each frequency of a hogel's Fourier transform.
 using DirectionPhases = std::vector<Array<std::complex<float>, 2>>;
+/// Computes the shared phases of all looks.
+/// @param flat  true: phases designed for a flat fringe (flatten_fringe()); false: random phases
 DirectionPhases direction_phases(const FrequencyGrid& frequencies, const math::Fft2& fft,
                                  const HologramOptions& options, bool flat);
 

@@ -33,6 +33,8 @@ class FastTiles {
     void prepare(const FrequencyGrid& frequencies, View<const float, 2> values, bool of_roots,
                  View<float, 2> moduli) const;
 
+    /// Computes the samples of a hogel, with row y at to + y·to_stride.
+    /// @param moduli  of prepare()
     /// @param series  random phases of the hogel
     /// @param look    index of shared phases
     void synthesise(std::span<const float> moduli, const PhaseSeries& series, std::size_t look, std::complex<float>* to,

@@ -43,10 +43,11 @@ class FrequencyGrid {
     /// As amplitudes(), for an array of hogels, sixteen at once: radiances[hogel][v u] to moduli[hogel][j_y j_x].
     void amplitudes(View<const float, 2> radiances, View<float, 2> moduli) const;
 
-    /// Returns the destination of a row of sixteen hogels, [j_x mod n][hogel], once the previous row is complete.
+    /// Returns the destination of row `row` of sixteen hogels, [j_x mod n][hogel]. Called when the previous row is
+    /// complete.
     using RowDestination = std::function<float*(std::size_t row)>;
     /// As amplitudes(), for up to sixteen hogels, row by row for the rows with active frequencies. Row indices ascend,
-    /// but for one jump. Columns of hogels beyond the last are undefined. `of_roots`: the values are √L, see
+    /// but for one jump back. Columns of hogels beyond the last are undefined. `of_roots`: the values are √L, see
     /// amplitudes_of_roots().
     void amplitudes_by_rows(View<const float, 2> radiances, bool of_roots, const RowDestination& destination) const;
 

@@ -29,6 +29,7 @@ struct HemicubeResampling {
     std::vector<float> weights;
 };
 
+/// Returns the lobes of the frequencies of a hogel with `samples` samples along a side, for rays of these faces.
 /// @param step_y  height of a cell as a direction sine; for a line of frequencies a factor of the scale
 /// @param line    frequencies along x only, from faces with one row of directions
 HemicubeResampling scatter_lobes(std::span<const LightFieldGrid> faces, std::size_t samples, double step_y, bool line,

@@ -24,7 +24,7 @@ double synthesis_bytes(const FieldGrid& hologram, std::size_t hogels);
 class HogelPreparation {
   public:
     virtual ~HogelPreparation() = default;
-    /// Number of values per hogel that prepare() computes.
+    /// Returns the number of values per hogel that prepare() computes.
     virtual std::size_t prepared_size() const = 0;
     /// Prepares several hogels at once. Thread-safe.
     /// @param radiances  [hogel][n_V n_U] of this wavelength
@@ -34,7 +34,7 @@ class HogelPreparation {
                          View<float, 2> prepared) const = 0;
 };
 
-/// Waves of hogels that are the Fourier transform of as many waves as samples.
+/// Source of the waves of hogels. A hogel is the Fourier transform of its waves, one for each of its samples.
 class HogelWaves : public virtual HogelPreparation {
   public:
     /// Computes the waves of a hogel in blocks of sixteen rows of frequencies, [row / 16][column][part][row mod 16]:
@@ -60,10 +60,11 @@ class HogelWaves : public virtual HogelPreparation {
     virtual bool has_lanes() const { return false; }
     /// Returns the random phases of at most `lanes` hogels or looks.
     virtual SeriesOfLanes series_of_lanes(std::span<const HogelKey>) const { return {}; }
-    /// Gathers sixteen rows of the prepared values of at most `lanes` hogels, as row_of_lanes() takes them, into the
-    /// rows' part of powers_size() · lanes values. Rows without light may stay unchanged.
+    /// Gathers sixteen rows of the prepared values of at most `lanes` hogels, in the form that row_of_lanes() takes.
+    /// Writes only the part of these rows in `gathered`, an array of powers_size() · lanes values. Rows without light
+    /// may stay unchanged.
     /// @param row       index of the first row, a multiple of sixteen
-    /// @param gathered  all values
+    /// @param gathered  values of all rows
     virtual void gather_lanes(std::span<const float* const>, std::size_t /*row*/, float* /*gathered*/) const {}
     /// Computes one row of waves of hogels or looks side by side, [column][part][lane]. Phases are counted from the
     /// middle of the hogel.
@@ -111,7 +112,8 @@ class HogelSynthesis : public virtual HogelPreparation {
         for (std::size_t y = 0; y < scratch.extent(0); ++y)
             std::copy_n(&scratch(y, 0), scratch.extent(1), to + y * to_stride);
     }
-    /// Returns the hogels' waves, or null if there are not as many waves as samples. Both may be prepared differently.
+    /// Returns the source of the hogels' waves, or null if hogels are not sums of one wave per sample. Its prepared
+    /// values may differ from those of this synthesis.
     virtual const HogelWaves* hogel_waves() const { return nullptr; }
 };
 

@@ -12,7 +12,8 @@
 
 namespace hogel::stereogram {
 
-/// Number of rows of a hogel's square side by side: for each column sixteen real parts, then sixteen imaginary parts.
+/// Number of rows of a hogel's square that are processed side by side, and number of floats of each column of these
+/// rows: sixteen real parts, then sixteen imaginary parts.
 inline constexpr std::size_t rows_at_once = 16;
 inline constexpr std::size_t square_column = 2 * rows_at_once;
 
@@ -33,7 +34,8 @@ struct SeriesOfLanes {
 
 PhaseSeries series_of_lane(const SeriesOfLanes& series, std::size_t lane);
 
-/// Returns whether phases from the middle of a hogel are bytes: (m + m′)(n − 1)/2n in whole 256ths of a cycle.
+/// Returns whether phases counted from the middle of a hogel of n columns are whole 256ths of a cycle for all waves (m,
+/// m′): their difference from phases of the first sample is (m + m′)(n − 1)/2n cycles.
 constexpr bool middle_is_a_byte(std::size_t columns) { return columns % 16 == 0 && 128 % columns == 0; }
 
 /// Computes one row of the waves of sixteen hogels or looks with the phases of random_waves(), counted from the middle
@@ -46,7 +48,8 @@ void random_row_plain(const SeriesOfLanes& series, std::size_t row, bool shared,
                       std::size_t columns, float* out);
 extern decltype(random_row_plain)& random_row;
 
-/// Returns the phases from the middle of a hogel of any side, e^{iπk(n − 1)/n} for k = row + x: [k][part].
+/// Returns the factors that convert phases counted from the first sample to phases counted from the middle of a hogel,
+/// for any side n = columns: e^{iπk(n − 1)/n} for k = row + x, [k][part].
 std::vector<float> middle_phases(std::size_t columns);
 
 /// As random_row(), for hogels of any side.

@@ -7,7 +7,7 @@
 
 namespace hogel::stereogram {
 
-/// Range of rows of a hogel's waves, first, first + 1, …, cyclic as frequencies are; by default all rows.
+/// Range of `count` rows of a hogel's waves from row `first`, cyclic like the frequencies. Default: all rows.
 struct InBandRows {
     std::size_t first = 0, count = std::numeric_limits<std::size_t>::max();
 

@@ -16,8 +16,9 @@ inline constexpr double max_smooth_hogel = 4;
 /// hogels spread over the light field. Zero without depth.
 double neighbouring_parallax(const LightFieldSource& light_field, double pitch);
 
-/// Returns whether rays without a surface vary by more than 10 % within a channel of one of these hogels: a picture at
-/// infinity. Smooth surfaces show only its mean. False without depth.
+/// Returns whether rays without a surface show a picture at infinity: in one of 25 hogels spread over the light field
+/// they vary by more than 10 % within a channel. Smooth surfaces show only the mean of such a picture. False without
+/// depth.
 bool has_picture_at_infinity(const LightFieldSource& light_field);
 
 }  // namespace hogel::stereogram

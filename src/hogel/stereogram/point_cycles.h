@@ -13,11 +13,13 @@ namespace hogel::stereogram {
 struct CycleSeries {
     std::array<std::uint32_t, 2> key;  ///< the seed
     std::uint32_t series;              ///< look and channel
-    /// Returns the phase of the surface point; with direction ≥ 1, of a ray without a surface of the hogel there.
+    /// Returns the phase of the surface point in this column and row. With direction ≥ 1: the phase of a ray that meets
+    /// no surface, in that direction from the hogel in this column and row.
     double operator()(std::uint32_t column, std::uint32_t row, std::uint32_t direction = 0) const;
 };
 
-/// Phases of surface points by column and row. Those around a range are precomputed, because many hogels share a point.
+/// Phases of surface points by column and row, in cycles. Phases of points in a range are precomputed, because many
+/// hogels share a point.
 class PointCycles {
   public:
     PointCycles(const CycleSeries& series, const HogelRange& points);

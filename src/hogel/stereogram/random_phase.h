@@ -8,7 +8,7 @@
 
 namespace hogel::stereogram {
 
-/// Series of random phases: the generator's key and its counter words but for the index of the draw.
+/// Series of random phases: the generator's key and all of its counter words except the index of the draw.
 struct PhaseSeries {
     std::array<std::uint32_t, 2> key;       ///< the seed
     std::array<std::uint32_t, 3> position;  ///< look and channel, column and row of the hogel

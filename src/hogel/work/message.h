@@ -14,7 +14,8 @@
 
 namespace hogel::work {
 
-/// Appends a number to a message, such as its index or a flag. Long messages have room for it.
+/// Appends a number to a message, such as its index or a flag. MessageWriter::reserve() leaves room for it, so that
+/// long messages are not copied.
 inline void append_number(std::string& bytes, std::uint64_t number) {
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }

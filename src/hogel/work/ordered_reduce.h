@@ -21,7 +21,7 @@ inline Communicator* communicator_of_several() {
     return current != nullptr && current->size() > 1 ? current : nullptr;
 }
 
-/// Returns whether loops send their results to other ranks or keep them in a file.
+/// Returns whether loops send their results to other ranks or store them in a checkpoint file.
 inline bool is_shared_or_kept(DoneBy by = DoneBy::one_rank) {
     return (by == DoneBy::one_rank && communicator_of_several() != nullptr) || result_log() != nullptr;
 }
@@ -59,9 +59,9 @@ void ordered_reduce_bytes(std::size_t n, std::size_t in_flight, const std::funct
 /// @param in_flight  as for local_ordered_reduce()
 std::size_t tiles_in_flight(std::size_t in_flight);
 
-/// local_ordered_reduce() over all ranks. The root merges all results in order, on a separate thread while it computes
-/// further results: a sum over tiles is the same for any number of ranks. All ranks must call it in the same order,
-/// never from loop bodies. Other ranks merge nothing and may return before the root. Within a ResumeScope merged
+/// As local_ordered_reduce(), over all ranks. The root merges all results in order, on a separate thread while it
+/// computes further results: a sum over tiles is the same for any number of ranks. All ranks must call it in the same
+/// order, never from loop bodies. Other ranks merge nothing and may return before the root. Within a ResumeScope merged
 /// results are kept in a file and not computed again in the next run.
 /// @param by  as for shared_jobs()
 template <class Result>
@@ -84,7 +84,7 @@ void ordered_reduce(std::size_t n, std::size_t in_flight, const Sent<Result>& se
         by);
 }
 
-/// ordered_reduce() for jobs that use all threads of a process. A process executes one job at a time, within a
+/// As ordered_reduce(), for jobs that use all threads of a process. A process executes one job at a time, within a
 /// JobScope. Within a ResumeScope each job is checkpointed as a whole.
 /// @param by  one_rank: each job runs on one rank, and the root takes all results. all_ranks: all ranks execute each
 ///            job together and take its result; only the root takes the results of earlier runs

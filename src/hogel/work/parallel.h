@@ -16,7 +16,7 @@ namespace hogel::work {
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body);
 
 /// Computes body(i) for every i in [0, n) on all threads. Calls merge(i, result) in increasing order of i on the
-/// calling thread, with at most `in_flight` results alive: a sum over tiles is the same for any number of threads.
+/// calling thread: a sum over tiles is the same for any number of threads. Keeps at most `in_flight` results in memory.
 template <class Result>
 void local_ordered_reduce(std::size_t n, std::size_t in_flight, const std::function<Result(std::size_t)>& body,
                           const std::function<void(std::size_t, Result&)>& merge);

@@ -43,7 +43,8 @@ class ResultLog {
 ResultLog* result_log();
 void set_result_log(ResultLog* log);
 
-/// Runs work with results in its own files, unless the active ResumeScope records it as done. All ranks call it.
+/// Runs work that writes its own files. Skips it if an earlier run with the active ResumeScope's checkpoint has
+/// finished it. All ranks call it.
 void once(const std::function<void()>& work);
 
 }  // namespace hogel::work

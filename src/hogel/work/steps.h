@@ -8,7 +8,7 @@
 
 namespace hogel::work {
 
-/// Thread-safe progress of equal steps, finished in any order.
+/// Reports the progress of a number of equal steps that finish in any order. Thread-safe.
 class Steps {
   public:
     Steps(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}

@@ -23,14 +23,16 @@ namespace hogel::camera::film {
 /// Samples of a film per resolution cell. The intensity behind a pupil varies by at most one period per cell, so two
 /// samples represent it; TwelvePoint interpolates between a few more.
 inline constexpr double samples_a_cell = 2.4;
-/// Returns the samples per cell; means over pixels wider than a cell hardly show the finest speckle of a preview.
+/// Returns the number of film samples per resolution cell. A preview has fewer: its pixels, wider than a cell, average
+/// the finest speckle.
 constexpr double film_samples(bool preview) { return preview ? 1.6 : samples_a_cell; }
 
-/// One axis of an exposed film: a transform over the period of the sines, of which only the shown samples are stored.
+/// One axis of an exposed film. The transform to the film covers the period of the sines; only the shown samples, first
+/// … first + count − 1, are stored.
 struct FilmAxis {
-    std::size_t size = 0;  ///< of the transform
+    std::size_t size = 0;  ///< number of samples of the transform
     std::size_t first = 0, count = 0;
-    double low = 0, step = 0;  ///< sine of the first kept sample, and between samples
+    double low = 0, step = 0;  ///< direction sine of the first stored sample, and its step between samples
 };
 
 struct FilmSize {
@@ -44,7 +46,8 @@ struct FilmSize {
     /// @param shown  film_area()
     FilmSize(const narrow_band::BandGrid& band, const FieldGrid& hologram, const Rectangle& shown, double pupil,
              double blur, double samples = samples_a_cell);
-    /// Return the bytes of a pupil wave, and the peak of Film::pupil_wave() and expose() beside their results.
+    /// Return the bytes of a pupil wave, and the peak memory of Film::pupil_wave() and expose() in addition to their
+    /// results.
     double pupil_bytes() const;
     double work_bytes() const;
     double intensity_bytes() const;

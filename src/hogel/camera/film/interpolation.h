@@ -64,7 +64,8 @@ class InterpolationTable {
     std::vector<float> weights_;
 };
 
-/// Returns the position of a point in a pixel of −1/2 … 1/2: two Gauss points in each of count/2 parts; count is even.
+/// Returns the position of a quadrature point within a pixel, from −1/2 to 1/2. The pixel is divided into count/2 equal
+/// parts with two Gauss points each; `count` is even.
 inline double gauss_position(std::size_t point, std::size_t count) {
     constexpr double inner = 0.28867513459481287;  // 1/√12
     const std::size_t part = point / 2;
@@ -72,8 +73,8 @@ inline double gauss_position(std::size_t point, std::size_t count) {
     return 2 * middle / static_cast<double>(count) - 0.5;
 }
 
-/// Returns the number of Gauss points across a pixel for a mean intensity exact to 3·10⁻⁴ at the middle of its
-/// frequencies: two for each 5/8 of a resolution cell.
+/// Returns the number of Gauss points across a pixel: two for each 5/8 of a resolution cell. The mean intensity over
+/// the pixel then has an error of at most 3·10⁻⁴ for frequencies up to a quarter cycle per cell.
 inline std::size_t gauss_points(double pixel_in_cells) {
     return 2 * static_cast<std::size_t>(std::max(1.0, std::ceil(1.6 * pixel_in_cells)));
 }
@@ -102,12 +103,13 @@ class KaiserPoints {
     std::array<std::array<float, taps>, terms> coefficients_;
 };
 
-/// Interpolations of the intensity behind a pupil, speckle: to −51 dB of its variation at 3.2 samples per resolution
-/// cell, and to −55 dB at 2.4 samples.
+/// Interpolations of the speckle intensity on a film. Their error relative to the variation of the intensity is −51 dB
+/// for six points at 3.2 samples per resolution cell, and −55 dB for twelve points at 2.4 samples.
 using SixPoint = KaiserPoints<6>;
 using TwelvePoint = KaiserPoints<12>;
 
-/// Interpolates value(0 … count − 1). Returns zero where not all neighbours exist. Values may be complex.
+/// Interpolates the sequence value(0) … value(count − 1) at a position. Returns zero where not all neighbours exist.
+/// Values may be complex.
 template <class Points, class Value>
 auto smooth_at(std::size_t count, double position, const Value& value) {
     using Result = std::decay_t<decltype(value(0))>;
@@ -121,7 +123,7 @@ auto smooth_at(std::size_t count, double position, const Value& value) {
     return sum;
 }
 
-/// Interpolates in two dimensions, for value(row, column).
+/// Interpolates in two dimensions, from value(row, column).
 template <class Points, class Value>
 auto smooth_at(std::size_t height, std::size_t width, double row, double column, const Value& value) {
     using Result = std::decay_t<decltype(value(0, 0))>;

@@ -13,7 +13,8 @@
 
 namespace hogel::camera::film {
 
-/// Returns the cosine of a direction, and a tiny number in a corner of a film that no direction reaches.
+/// Returns the cosine of the direction with these sines to the axis of the film. Corners of a film may have sines of no
+/// direction: there it is a tiny number.
 inline double cosine_of(double sine_x, double sine_y) {
     return std::sqrt(std::max(1 - sine_x * sine_x - sine_y * sine_y, 1e-12));
 }
@@ -45,9 +46,9 @@ inline optics::SpreadWindow spread_window(const SineGrid& sines, double waveleng
 /// the frequency (δ − ∇_n Q)/λ in the sines, with Q the path without the term linear in δ. So the disc is slightly
 /// distorted in the plane of frequencies, more so for oblique light.
 ///
-/// The defocus phase depends slowly on the direction. The film is divided among nodes with a phase each, so many that
-/// the phase varies by at most half a radian within one. For a tilted plane in focus, the phase varies from side to
-/// side: by a fifth of a radian from node to node, and the outermost nodes are at the sides.
+/// The defocus phase depends slowly on the direction. The film is divided among nodes with one phase each. There are
+/// enough nodes that the phase varies by at most half a radian within one. For a tilted plane in focus, the phase
+/// varies from side to side: by a fifth of a radian from node to node, and the outermost nodes are at the sides.
 class FilmLens {
   public:
     FilmLens(const SineGrid& sines, double wavelength, const Camera& camera)

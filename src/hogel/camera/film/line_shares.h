@@ -7,15 +7,16 @@
 
 namespace hogel::camera::film {
 
-/// Interpolation weights of lines from those of a few nodes between the first and the last line. The weight of a tap is
-/// a polynomial of the line's parameter t = −1 … 1 through its values at the nodes. The number of nodes depends on the
-/// spread of the positions of a value over the lines, in samples. Weights are then within 5·10⁻⁴ of the exact ones.
+/// Parallel lines have interpolation weights that change little from line to line. They are computed at a few nodes
+/// between the first and the last line. Between nodes, the weight of a tap is a polynomial of the line's parameter t,
+/// from −1 at the first to 1 at the last line. The number of nodes depends on the spread: the range of a value's
+/// positions over the lines, in samples. Weights are then within 5·10⁻⁴ of the exact ones.
 inline constexpr std::size_t max_line_nodes = 5;
 inline constexpr double max_line_spread = 0.5;
 
 constexpr std::size_t line_nodes(double spread) { return spread <= 0.03 ? 2 : spread <= 0.15 ? 3 : max_line_nodes; }
 
-/// Return t at a node, and a value at a node, interpolated between the first and the last line.
+/// Return t at a node, and the linear interpolation at a node between a value on the first and one on the last line.
 constexpr double node_position(std::size_t node, std::size_t nodes) {
     return 2 * static_cast<double>(node) / static_cast<double>(nodes - 1) - 1;
 }

@@ -9,16 +9,17 @@
 
 namespace hogel::camera::film {
 
-/// TwelvePoint interpolation weights of several points on parallel lines, merged: those of the sum over all points of
-/// factor · value. From line to line positions and factors change little (line_shares.h).
+/// Combined weights of the samples of a line in a sum over several points, Σ factor · (TwelvePoint interpolation at the
+/// point). They apply to parallel lines, with positions and factors that change little from line to line
+/// (line_shares.h).
 class MergedWeights {
   public:
     struct Point {
         double low, high;  ///< positions on the first and the last line; linear in t between them
         float low_factor, high_factor;
     };
-    /// Merges the points. Returns false if they cannot share weights: a position differs by more than max_line_spread.
-    /// Points without neighbours, beyond the ends of the lines, count as zero.
+    /// Combines the weights of the points. Returns false if the lines cannot share weights: a position differs by more
+    /// than max_line_spread between lines. Points without neighbours, beyond the ends of the lines, count as zero.
     /// @param size  samples of a line
     bool set(std::span<const Point> points, std::size_t size);
 

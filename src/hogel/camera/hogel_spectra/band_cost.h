@@ -10,7 +10,7 @@
 
 namespace hogel::camera::hogel_spectra {
 
-/// Returns the hogels of all colours. Returns none if the method's waves are not known.
+/// Returns the hogel layout of each colour. Returns an empty vector if the method's hogels are not sums of known waves.
 std::vector<HogelLayout> layouts_of(const HologramMethod& method, const LightFieldGrid& light_field,
                                     std::span<const FieldGrid> colours);
 

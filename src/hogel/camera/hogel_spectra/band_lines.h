@@ -17,21 +17,22 @@ struct LookBlocks {
     std::size_t looks = 0, looks_per_block = 1;
 
     std::size_t blocks() const { return (looks + looks_per_block - 1) / looks_per_block; }
-    /// Returns the floats of a row of hogels, in lines and in light; padded to whole vectors of nodes for single looks.
+    /// Returns the number of floats in a row of numbers for a row of hogels, in lines and in light. For single looks it
+    /// is padded to whole vectors of nodes.
     std::size_t row_size(const PupilBand& band, std::size_t hogels) const {
         const std::size_t samples = band.samples(hogels);
         return looks_per_block == 1 ? padded(samples + lanes - 1) : samples * looks_per_block;
     }
 };
 
-/// Intermediate lines of a pupil band for several rows of hogels. Hogels of a row with the same weights down share a
-/// line; nearly always one line serves the whole row.
+/// Intermediate lines of a pupil band for several rows of hogels. Hogels of a row with the same vertical weights share
+/// a line; nearly always one line serves the whole row.
 class BandLines {
   public:
     /// Begins without lines, for rows of `hogels` hogels each.
     void reset(const PupilBand& band, const LookBlocks& looks, std::size_t hogels);
     /// Assigns a hogel to its line. Hogels of a row must come in order.
-    /// @param weights  of the basis down
+    /// @param weights  vertical weights of the hogel, of the basis along its columns
     void add(std::size_t row, std::size_t column, const SlepianBasis::Weights& weights);
     /// Sets all lines to zero. Call it after the last add().
     void clear();

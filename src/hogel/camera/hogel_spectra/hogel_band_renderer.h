@@ -17,7 +17,7 @@
 
 namespace hogel::camera::hogel_spectra {
 
-/// Hogels that are sums of the waves of their Fourier transforms, with cached waves.
+/// Hogels of a stereogram, each the sum of the waves of its Fourier transform, and a cache of these waves.
 struct Hogels : stereogram::Hogels {
     /// Waves of the first look, or null.
     const WaveCache* wave_cache = nullptr;

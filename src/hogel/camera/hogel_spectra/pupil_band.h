@@ -16,11 +16,11 @@ namespace hogel::camera::hogel_spectra {
 
 using stereogram::HogelLayout;
 
-/// Returns the samples of a viewpoint's band per hogel, along an axis.
+/// Returns the number of samples of a viewpoint's band per hogel, along an axis.
 std::size_t band_samples_per_hogel(const HogelLayout& hogels, const camera::Viewpoint& viewpoint);
 
-/// Whether a band of `per_hogel` samples per hogel costs less than the hogels' samples: at most half as many along an
-/// axis. A band that is nearly as dense as the samples saves nothing.
+/// Returns whether a band of `per_hogel` samples per hogel costs less than the hogels' samples: if it has at most half
+/// as many samples along an axis. A band that is nearly as dense as the samples saves nothing.
 inline bool band_is_cheaper(std::size_t per_hogel, const HogelLayout& hogels) {
     return 4 * per_hogel * per_hogel <= hogels.across() * hogels.down();
 }
@@ -28,7 +28,8 @@ inline bool band_is_cheaper(std::size_t per_hogel, const HogelLayout& hogels) {
 /// Geometry and bases of the pupil band of a viewpoint, for a range of hogels.
 class PupilBand {
   public:
-    /// Returns the bands of several viewpoints. Returns none if one of them costs more than samples.
+    /// Returns the bands of several viewpoints. Returns an empty vector if one of them costs more than the hogels'
+    /// samples.
     static std::vector<PupilBand> create(const HogelLayout& hogels, const HogelRange& range,
                                          std::span<const camera::Viewpoint> viewpoints);
 
@@ -36,9 +37,9 @@ class PupilBand {
     SlepianBases bases() const { return {*across_, *down_}; }
     std::size_t nodes() const { return across_->nodes(); }
     std::size_t per_hogel() const { return per_hogel_; }
-    /// Increase of the demodulation's frequency over a hogel, in cycles per hogel.
+    /// Returns the change of the demodulation's frequency over the width of a hogel, in cycles per hogel.
     double bend() const { return bend_; }
-    /// Returns the samples of the band that `hogels` adjacent hogels reach, along an axis.
+    /// Returns the number of samples of the band that `hogels` adjacent hogels reach, along an axis.
     std::size_t samples(std::size_t hogels) const {
         return (hogels + overlap_ - 1) * per_hogel_ + 2 * across_->before();
     }

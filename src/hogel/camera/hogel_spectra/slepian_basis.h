@@ -51,7 +51,7 @@ class SlepianBasis {
         return (static_cast<double>(node) - static_cast<double>(before_) + 0.5) / static_cast<double>(per_hogel_) - 0.5;
     }
 
-    /// [node][function]
+    /// Returns the values of the functions at the nodes, [node][function].
     View<const float, 2> spread() const { return spread_; }
 
     /// Two waves with equal weights for even functions and opposite weights for odd ones. The signs, ±0, flip the

@@ -23,7 +23,8 @@ struct HogelBlock {
     std::size_t hogel = 0;            ///< from one hogel to the next
 };
 
-/// Returns `range` of the radiances [c][t][s][v][u] of a face, or of a tile with the first hogel (s0, t0).
+/// Returns the hogels of `range` in the radiances [c][t][s][v][u] of a face, or of a tile with the first hogel (s0,
+/// t0).
 HogelBlock block_of(View<const float, 5> radiance, std::size_t s0, std::size_t t0, const HogelRange& range);
 
 /// A range of hogels of a face. The tile holds its samples unless the face is in memory.
@@ -33,14 +34,15 @@ struct LoadedHogels {
 };
 LoadedHogels load_hogels(const LightFieldSource& face, const HogelRange& range);
 
-/// Samples [v][u][c][t][s] of a front, floats or halves: for each direction the view of all hogels. A viewpoint sees
-/// neighbouring hogels in nearly the same direction, so their samples are adjacent.
+/// Samples [v][u][c][t][s] of a front, floats or halves: for each direction a picture with one pixel per hogel. A
+/// viewpoint sees neighbouring hogels in nearly the same direction, so their samples are adjacent.
 template <class Sample>
 struct Views {
     const Sample* samples = nullptr;
 };
 
-/// Whether columns of directions depend only on columns of hogels, and rows on rows. False for directions in sines.
+/// Returns whether the direction of a ray from a hogel to a viewpoint has a column u that depends only on the hogel's
+/// column, and a row v that depends only on its row. False for directions in sines.
 inline bool is_separable(const LightFieldGrid& front) { return !front.has_frequencies(); }
 
 enum class Implementation {
@@ -63,8 +65,8 @@ class Exposure {
     /// Caches the rays of all lens points, which each block of hogels needs, if they take at most `bytes`.
     void cache_rays(std::size_t bytes) { max_cached_ = bytes; }
 
-    /// Adds all rays of a face that cross the hologram plane in a cell with the upper left hogel in `cells`. The block
-    /// holds these hogels and their right and lower neighbours.
+    /// Adds all rays of a face that cross the hologram plane in one of these cells: squares between four neighbouring
+    /// hogels, named by their upper left hogel. The block holds these hogels and their right and lower neighbours.
     void add(std::size_t face, const HogelBlock& block, const HogelRange& cells);
     /// Adds the rays of a front with its views in memory, which is faster. Requires is_separable().
     void add(const Views<float>& views, const HogelRange& hogels, const HogelRange& cells);

@@ -21,7 +21,8 @@ struct HogelGrid {
 /// Returns half the width of the light of a pupil, in cycles per hogel: the maximum over the hologram.
 double half_band(const HogelGrid& hogels, Vec3 viewpoint, double pupil);
 
-/// Pairs (q_x, q_y) of node waves, with consecutive q_y, without corners that send next to no light into the pupil.
+/// Pairs (q_x, q_y) of node waves along the two axes. Omits pairs in the corners, which send next to no light into the
+/// pupil. The q_y of each q_x are consecutive.
 struct NodePairs {
     struct Range {
         std::size_t begin = 0, end = 0;
@@ -35,7 +36,8 @@ struct NodePairs {
 };
 
 /// Positions of a picture's pixels among hogels along one axis, clipped to the hologram and the visible surroundings. A
-/// pixel around position u receives the light of hogels base − support … base + support, with one of a few entries.
+/// pixel around position u, in hogels, receives the light of hogels base − support … base + support. Its weights depend
+/// only on its entry; many pixels share one.
 struct PixelOffsets {
     struct Entry {
         double offset = 0;  ///< u − base
@@ -89,9 +91,10 @@ class PsfTable {
     /// Returns the number of hogels in the support of a pixel, along an axis.
     std::size_t taps() const { return 2 * support_ + 1; }
     std::size_t support() const { return support_; }
-    /// [entry down][entry across][hogel down][hogel across · pair]: radiance of a pixel due to a hogel's PSF.
+    /// Returns the radiance of a pixel due to a hogel's PSF: [entry down][entry across][hogel down][hogel across ·
+    /// pair].
     View<const float, 4> weights() const { return weights_; }
-    /// [pair]: total exposure by the tail of a PSF, on pixels of the size of a hogel.
+    /// Returns the total exposure by the tail of a PSF, on pixels of the size of a hogel: [pair].
     std::span<const float> tails() const { return tails_; }
 
   private:

@@ -14,7 +14,7 @@ namespace hogel::camera::speckle_free {
 /// numbers of the hogels around it and a table of PSFs. Light beyond five resolution cells from a hogel's picture is
 /// spread like the diffraction at the pupil's rim, by the third power of the distance.
 ///
-/// Pictures are added to. Memory: the numbers of all hogels for all viewpoints, or of bands of rows of hogels. Throws
+/// Adds to `pictures`. Memory: the numbers of all hogels for all viewpoints, or of bands of rows of hogels. Throws
 /// Error(usage) as photograph() does.
 void photograph(const FieldSource& hologram, const WavePowers& waves, std::span<const Camera> cameras,
                 const SpeckleFreeCamera& model, std::span<Image> pictures, const Progress& progress);

@@ -24,7 +24,7 @@ struct LineRange {
 
 LineRange common_lines(const LineRange& a, const LineRange& b);
 
-/// Returns the lines of a rank. Ranks have about equal numbers of lines, in whole groups of `group` lines.
+/// Returns the lines of a rank. Ranks have about equal numbers of lines, in whole groups of `group` adjacent lines.
 LineRange lines_of(std::size_t rank, std::size_t ranks, std::size_t lines, std::size_t group);
 
 /// All-gather: copies the lines that each rank has computed to all ranks. Every rank has room for the whole array.
@@ -74,7 +74,8 @@ class SharedPlane {
     LineRange local_rows(std::size_t rows) const { return lines_of(rank_, size_, rows, block_rows_); }
     LineRange local_columns() const { return lines_of(rank_, size_, columns_, block_columns_); }
 
-    /// Sets the layout. Must be called before the first row, or column, is written.
+    /// Set the layout to rows, or to columns, of a plane with this number of rows. Must be called before the first row,
+    /// or column, is written.
     void begin_rows(std::size_t rows) { rows_ = rows; }
     void begin_columns(std::size_t rows);
 

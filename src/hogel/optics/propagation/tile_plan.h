@@ -24,7 +24,8 @@ struct AxisPlan {
     /// 0: a chirp-z transform instead.
     std::size_t inward = 0, outward = 0;
     /// An edge of the band, at half a cycle per sample. `active`: light at the edge reaches the output. low, high: the
-    /// range of remaining paths from any sample to any output sample, in periods.
+    /// range, in periods, of the difference between the path from any field sample to any output sample and the
+    /// sideways path of light at the edge.
     struct Edge {
         bool active = false;
         double low = 0, high = 0;
@@ -41,7 +42,8 @@ struct TilePlan {
     AxisPlan x, y;
     double distance = 0, wavelength = 0;
     bool evanescent = false;  ///< true if evanescent waves have not decayed at this distance
-    /// Directions with a smaller cosine to the z axis have a sideways path too long for the period.
+    /// Directions with a smaller cosine to the z axis have a sideways path too long for the period, and are dropped. 0:
+    /// none.
     double min_cosine = 0;
 
     double bytes() const;

@@ -51,7 +51,7 @@ class WindowBrightness {
     }
     /// Range of c in on_slope(); beyond it surfaces are almost parallel to the ray, or depths are inexact.
     static constexpr float min_stretch = -0.4f, max_stretch = 1;
-    /// 1/b² of a window that interferes with no other, with b its factor.
+    /// Returns 1/b² with b the factor of a window that interferes with no other.
     float isolated_share() const { return isolated_share_; }
     /// Returns the offset of the factors of frequency j in across() and down().
     std::size_t first(std::ptrdiff_t j) const { return static_cast<std::size_t>(j + max_frequency_) * steps; }
