@@ -19,6 +19,7 @@ inline constexpr const char* json_type = "application/json";
 /// Serialises to one line.
 std::string dump(const Json& json);
 
+/// Returns the response to a failed request.
 /// @param parameter  names from Error::parameter(); the page marks their controls
 Response failure(unsigned status, const std::string& why, const std::vector<std::string>& parameter = {});
 Response failure(const Error& error);

@@ -40,7 +40,8 @@ class Settings {
     /// Returns true if the settings differ only in parameters of holograms.
     bool same_light_field(const Settings& other) const;
 
-    /// Returns the `hogel photo` command without the camera; for layers of a stream after `hogel decompress`.
+    /// Returns the `hogel photo` command without the camera. For some layers of a stream, a `hogel decompress` command
+    /// precedes it.
     std::string photo_command() const;
     /// Returns the same for the original of a compressed light field.
     std::string original_command() const;

@@ -34,7 +34,7 @@ struct LevelCounts {
     double efficiency = 0;              ///< fraction of the light on the modulator that forms the wave of the hologram
 };
 
-/// A picture; by waves the mean of the looks so far.
+/// A picture. By wave optics it is the mean of the looks so far.
 struct Photograph {
     Image picture;               ///< linear light; with display=log its logarithm
     double exposure = 1;         ///< display factor
@@ -56,7 +56,7 @@ class Viewable {
     virtual bool has_rays() const = 0;
     /// Returns whether there is an original to compare with.
     virtual bool has_original() const { return false; }
-    /// Returns the number of looks by waves; 0: no waves.
+    /// Returns the number of looks of pictures by wave optics; 0: there are no such pictures.
     virtual std::size_t looks() const = 0;
     /// Returns facts for the page, in SI units, as members of one object.
     virtual nlohmann::ordered_json facts() const = 0;
@@ -80,9 +80,10 @@ class Viewable {
     Camera camera(const PictureQuery& query) const;
     /// Throws Error(usage) if the viewable cannot show the query.
     void require(const PictureQuery& query) const;
-    /// Takes the pictures of `hogel photo`; for two viewpoints side by side. Throws Error(cancelled).
+    /// Takes the picture of `hogel photo` with the same options, or pictures of two viewpoints side by side. Throws
+    /// Error(cancelled).
     void photograph(const PictureQuery& query, const Shown& shown, const Progress& progress);
-    /// Returns the last of them.
+    /// Returns the last picture that the other photograph() would report.
     Photograph photograph(const PictureQuery& query, const Progress& progress);
 
   protected:

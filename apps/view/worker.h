@@ -20,8 +20,8 @@ class Worker {
     struct Job {
         /// Must end early when a stop is requested. Must not throw: an exception would terminate the program.
         std::function<void(std::stop_token)> work;
-        /// If true, a newer job of the same client waits instead of cancelling this one. True in motion: otherwise a
-        /// drag would cancel every picture and show none.
+        /// If true, a newer job of the same client waits instead of cancelling this one. True while the user drags:
+        /// otherwise every picture would be cancelled and none shown.
         bool ends_first = false;
     };
 

@@ -44,7 +44,7 @@ class HOGEL_API FieldSource {
     virtual std::size_t looks() const { return 1; }
     /// Returns the provenance in the field's file, or that of its light field.
     virtual const Provenance& provenance() const;
-    /// Returns the number of samples; regions at its multiples, with multiples of it as sizes, avoid repeated work.
+    /// Returns a number of samples: regions with multiples of it as offsets and sizes avoid repeated work.
     virtual std::size_t alignment() const { return 1; }
     /// Returns the number of extra samples computed beyond each side of a region, due to overlapping windows.
     virtual std::size_t overlap() const { return 0; }

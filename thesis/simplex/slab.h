@@ -43,8 +43,9 @@ using SlabTriangles = std::vector<SlabTriangle, CacheLineAllocator<SlabTriangle>
 /// Returns the triangles of a scene. Reuses the memory of `list`.
 SlabTriangles slab_triangles(const ShadedScene& scene, SlabTriangles list = {});
 
-/// 64 triangles, and the rows of hogels from which their corners are visible: at a V of slope dy/dζ, row `row` − slope
-/// · `depth`. Both are in rows of hogels and rounded, so they serve only to skip triangles.
+/// 64 triangles, and for each corner two numbers that give the row of hogels from which it is visible: at directions V
+/// of slope dy/dζ it is row − slope · depth. Both are in rows of hogels and rounded, so they serve only to skip
+/// triangles.
 struct alignas(64) TriangleBlock {
     static constexpr std::size_t size = 64;
 
@@ -145,7 +146,7 @@ class SlabRays {
         return (row * hogels_ + hogel) * directions_ + direction;
     }
 
-    /// dx/dζ or dy/dζ of rays of a V along the slow axis, and along the fast one.
+    /// Return dx/dζ or dy/dζ of the rays of one V along the slow axis, and along the fast axis.
     static double slow_slope_of(const LightFieldGrid& grid, const render::RowAxes& axes, std::size_t slow);
     static double fast_slope_of(const LightFieldGrid& grid, const render::RowAxes& axes, std::size_t slow,
                                 std::size_t fast);

@@ -62,7 +62,8 @@ std::vector<WaveletLine> wavelet_levels(const Wavelet& wavelet, std::size_t leng
 void forward_line_plain(const Wavelet& wavelet, std::span<double> line);
 void inverse_line_plain(const Wavelet& wavelet, std::span<double> line);
 
-/// Returns the weights of samples 0..count−1 of a polynomial sequence of degree < count for its value at `position`.
+/// Returns the weights of samples 0 … count − 1 that give the value at `position` of the polynomial of degree < count
+/// through these samples.
 std::vector<double> extrapolation(std::size_t count, std::ptrdiff_t position);
 
 }  // namespace hogel::wavelets

@@ -23,9 +23,9 @@ class RawFile {
 
     const std::filesystem::path& name() const { return name_; }
     std::uint64_t size() const;
-    /// Throws Error(bad_input) if the file is too short.
+    /// Reads bytes at an offset. Throws Error(bad_input) if the file is too short.
     void read(std::uint64_t offset, void* to, std::size_t bytes) const;
-    /// Throws Error(cannot_write).
+    /// Writes bytes at an offset. Throws Error(cannot_write).
     void write(std::uint64_t offset, const void* from, std::size_t bytes);
     /// Extends the file to at least `bytes`; reserves disk space if possible. Throws Error(cannot_write).
     void reserve(std::uint64_t bytes);
@@ -35,7 +35,7 @@ class RawFile {
     bool lock();
     /// Flushes all data to disk. Throws Error(cannot_write).
     void flush();
-    /// Throws Error(cannot_write) if the system reports a delayed write error.
+    /// Closes the file. Throws Error(cannot_write) if the system reports a delayed write error.
     void close();
 
   private:

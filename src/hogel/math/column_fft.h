@@ -23,17 +23,19 @@ class ColumnFft {
 
     explicit ColumnFft(std::size_t length);
 
-    /// Sums with e^{+2πi jm/n}, or e^{-2πi jm/n} if forward. Row r is read at from + r·from_row and written at to +
-    /// r·to_row, in complex numbers. `from` and `to` may be equal.
+    /// Transforms columns: X[m] = Σ_j x[j] e^{+2πi jm/n}, or with e^{-2πi jm/n} if forward; j and m are rows, n is the
+    /// length. Reads row r at from + r·from_row and writes it at to + r·to_row, in complex numbers. `from` and `to` may
+    /// be equal.
     void transform(bool forward, const std::complex<float>* from, std::size_t from_row, std::complex<float>* to,
                    std::size_t to_row, std::size_t columns) const;
 
-    /// Sums with e^{+2πi jm/n} along sixteen columns in place, in split layout [row][part][column], aligned to a cache
-    /// line.
+    /// Transforms sixteen columns backwards (with e^{+2πi jm/n}) in place, in split layout [row][part][column], aligned
+    /// to a cache line.
     void backward_split(float* columns) const;
 
-    /// Sums with e^{+2πi jm/n} from [column/16][row][part][column mod 16] to interleaved results as of transform(). If
-    /// the rows of the result are aligned to cache lines and part of a larger array, writes with non-temporal stores.
+    /// Transforms columns backwards from [column/16][row][part][column mod 16] to interleaved complex numbers, with row
+    /// r at to + r·to_row. If the rows of the result are aligned to cache lines and part of a larger array, writes with
+    /// non-temporal stores.
     void backward_split(const float* from, std::complex<float>* to, std::size_t to_row, std::size_t columns) const;
 
     struct Factor {

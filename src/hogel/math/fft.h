@@ -9,9 +9,9 @@
 
 namespace hogel::math {
 
-/// Discrete Fourier transforms with a plan per size. Thread-safe. Not normalised: forward sums with e^{-2πi jm/n},
-/// backward with e^{+2πi jm/n}. A plan depends only on the size: equal input gives equal bytes for any number of
-/// threads.
+/// Discrete Fourier transforms with a plan per size. Thread-safe. forward: X[m] = Σ_j x[j] e^{-2πi jm/n}; backward:
+/// with e^{+2πi jm/n}. Neither divides by n. A plan depends only on the size: equal input gives equal bytes for any
+/// number of threads.
 
 /// Transform of one line.
 class Fft1 {
@@ -46,7 +46,7 @@ class Fft2 {
     /// Transform in place. The shape must be that of the plan.
     void forward(View<std::complex<float>, 2> values) const;
     void backward(View<std::complex<float>, 2> values) const;
-    /// Writes row r of the result at to + r·to_row. Overwrites `values`.
+    /// As backward() in place, but writes row r of the result at to + r·to_row. Overwrites `values`.
     void backward(View<std::complex<float>, 2> values, std::complex<float>* to, std::size_t to_row) const;
 
     std::size_t height() const;

@@ -28,7 +28,8 @@ auto sum_of_lines(std::size_t count, const OfLine& of_line) {
 /// Carrier wave e^{2πi f_x·column}, by column. The useful order of a pattern is F times the carrier.
 using Carrier = std::vector<std::complex<float>>;
 
-/// Returns the half bandwidth along x, cycles per sample, of 95 % of a field's energy; hogel edges scatter the rest.
+/// Returns half the width of the band along x, cycles per sample, that contains 95 % of a field's energy. Hogel edges
+/// scatter the rest.
 double band_along_x(View<const std::complex<float>, 2> field);
 
 /// Diffraction order of an amplitude pattern that reproduces F.
@@ -44,7 +45,7 @@ struct CarriedOrder {
 Array<float, 2> encode_amplitude(View<const std::complex<float>, 2> field, const PatternOptions& options,
                                  double wavelength, CarriedOrder& order);
 
-/// Returns the field's aperture, shifted to the order and at most 1/1.1 of its clearance in radius.
+/// Returns the field's aperture, moved to the order, with a radius of at most order.clearance/1.1.
 Aperture aperture_around(const CarriedOrder& order, Aperture of_field);
 
 /// Computes the phases of a pattern for Encoding::gerchberg_saxton, in cycles [0, 1), by alternating projections in

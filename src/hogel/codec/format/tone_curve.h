@@ -27,7 +27,7 @@ class ToneCurve {
     float point(std::size_t i) const { return point_at(first_ + static_cast<std::uint32_t>(i)); }
     std::uint32_t first() const { return first_; }
     const std::vector<float>& values() const { return values_; }
-    /// Returns the decades from the first point to the last, of luminance and of y.
+    /// Return the number of decades (factors of ten) from the first to the last point, of luminance and of y.
     double decades() const;
     double mapped_decades() const;
 

@@ -26,10 +26,11 @@ bool starts_like_ply(std::string_view bytes);
 /// Returns whether a text begins with the byte order mark of UTF-8.
 bool starts_with_mark(std::string_view bytes);
 
-/// Reads a file without such a mark. Throws Error(bad_input), naming `file`.
+/// Reads a file of `size` bytes, and removes such a mark. Throws Error(bad_input), naming `file`.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t size, const std::string& file);
 
-/// Returns the size. Throws Error(bad_input) for a file that is missing, not regular, empty or larger than 4 GiB.
+/// Returns the size of a file in bytes. Throws Error(bad_input) for a file that is missing, not regular, empty or
+/// larger than 4 GiB.
 std::uintmax_t check_regular_file(const std::filesystem::path& path);
 
 }  // namespace hogel::scene::mesh_files
