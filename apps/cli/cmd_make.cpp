@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 #include "commands.h"
 #include "hogel/communicator.h"
@@ -111,10 +112,10 @@ Records records_of(MakeParameters& make, const MakeRequest& request, const Sessi
     Records records;
     records.light_field = record_of(Output::light_field);
     make.hologram.resolve(request.hologram, request.light_field.grid);
-    const bool is_expected = make.waves.is_speckle_free();
-    make.waves.looks = "expected";
+    const std::string speckle = std::exchange(make.waves.speckle, "none");
     records.speckle_free = record_of(Output::speckle_free_photographs);
-    if (!is_expected) make.waves.looks = fmt::format("{}", request.hologram.looks);
+    make.waves.speckle = speckle;
+    make.waves.looks = fmt::format("{}", request.hologram.looks);
     records.waves = record_of(Output::photographs);
     records.rays = record_of(Output::ray_photographs);
     records.hologram = record_of(Output::hologram);

@@ -97,7 +97,7 @@ int render(Options& options, const Session& session) {
     options.output.require(options.scene);
     if (options.part.part && options.output.compressed())
         throw Error(ErrorCode::usage, "part",
-                    fmt::format("belongs to HDF5 files; {} is a compressed one", options.output.file));
+                    fmt::format("applies to HDF5 files; {} is a compressed one", options.output.file));
     static_cast<void>(options.render.request());  // throws before a scene is loaded
     const Scene scene = load_scene(session, options.scene, options.render);
     const std::string input = options.resume || options.part.part ? describe_input(options.scene, scene) : "";

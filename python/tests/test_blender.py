@@ -162,7 +162,7 @@ class Export(InFolder, Checks):
     def test_errors(self):
         cases = [
             (["a.glb", "--camera", "none"], 2, "--camera 'none'"),
-            (["a.glb", "--camera", "Sun"], 2, "is no camera"),
+            (["a.glb", "--camera", "Sun"], 2, "not a camera"),
             (["a.glb", "--width", "80"], 2, "is not a length"),
             (["a.glb", "--distance", "-1"], 2, "is not before the camera"),
             (["a.obj"], 2, "must end in .glb"),
