@@ -222,7 +222,7 @@ class OwnRenderers(unittest.TestCase):
         self.assertEqual(seen[0][1], 6)
         self.assertGreater(seen[0][0], 0)
         self.assertTrue(np.allclose(lf.part(c=0, t=0, v=0, u=0), (np.arange(6) - 2.5) * 1e-3))
-        with self.assertRaisesRegex(hogel.UsageError, "hogel's"):
+        with self.assertRaisesRegex(hogel.UsageError, "a renderer of hogel"):
             hogel.add_renderer("epi", renderer)
 
     def test_light_of_a_scene(self):
@@ -263,7 +263,7 @@ class Films(InFolder):
             self.assertIn("ffmpeg", str(error))
             self.skipTest("ffmpeg is not installed")
         self.assertEqual(Path("f.gif").read_bytes()[:3], b"GIF")
-        with self.assertRaisesRegex(hogel.UsageError, "one size"):
+        with self.assertRaisesRegex(hogel.UsageError, "equal size"):
             hogel.film("f.gif", [np.zeros((2, 2)), np.zeros((3, 2))])
 
 
