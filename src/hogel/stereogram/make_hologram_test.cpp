@@ -167,7 +167,7 @@ TEST(MakeHologram, lines_need_one_row_of_directions_and_a_line_pitch_that_is_not
     const LightFieldGrid grid{2, 2, 36_um, 8, 6, Perspective{0.1, 0.1}, 1};
     expect_refused(light_field_of_faces({&grid, 1}, light), options_for(Lines{9_um}, 3_um), "8x1 directions would do");
     const LightField row = row_of_directions(light);
-    expect_refused(row, options_for(Lines{-1}, 3_um), "must be positive");
+    expect_refused(row, options_for(Lines{-1}, 3_um), "must not be negative");
     EXPECT_EQ(make_hologram(row, options_for(Lines{}, 3_um))->grid().plane.height, std::size_t{5 * 12});
     EXPECT_EQ(make_hologram(row, options_for(Lines{9_um}, 3_um))->grid().plane.height, std::size_t{5 * 4});
 }

@@ -108,14 +108,14 @@ TEST_F(ResultLogs, of_other_work_are_refused) {
     });
     expect_error(ErrorCode::usage, "begun with 'option n 100'", [&] { ResumeScope(file_, {"squares"}); });
     std::ofstream(file_) << "something else";
-    expect_error(ErrorCode::bad_input, "no checkpoint of hogel", [&] { ResumeScope(file_, work); });
+    expect_error(ErrorCode::bad_input, "not a checkpoint of hogel", [&] { ResumeScope(file_, work); });
     EXPECT_TRUE(fs::exists(file_));
 }
 
 TEST_F(ResultLogs, of_one_process_are_written_by_no_other) {
     const ResumeScope scope(file_, work);
     expect_error(ErrorCode::cannot_write, "another process", [&] { ResumeScope(file_, work); });
-    expect_error(ErrorCode::usage, "one work at a time", [&] { ResumeScope(file_.string() + "2", work); });
+    expect_error(ErrorCode::usage, "only one can be active at a time", [&] { ResumeScope(file_.string() + "2", work); });
     EXPECT_FALSE(fs::exists(file_.string() + "2"));
 }
 
