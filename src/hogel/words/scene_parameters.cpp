@@ -140,7 +140,7 @@ void SceneParameters::declare(Parameters& parameters) {
     parameters.parsed(
         "--up", "AXIS",
         "Direction of the scene that points upwards: y (default; for STL, 3MF and AMF files z), x, -x, -y, -z, or "
-        "X,Y,Z",
+        "X,Y,Z along one of these axes",
         [this](const std::string& text) { pose.up = parse_up(text); });
     parameters
         .rotation("--rotate", pose.rotation,
