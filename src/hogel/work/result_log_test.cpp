@@ -115,7 +115,8 @@ TEST_F(ResultLogs, of_other_work_are_refused) {
 TEST_F(ResultLogs, of_one_process_are_written_by_no_other) {
     const ResumeScope scope(file_, work);
     expect_error(ErrorCode::cannot_write, "another process", [&] { ResumeScope(file_, work); });
-    expect_error(ErrorCode::usage, "only one can be active at a time", [&] { ResumeScope(file_.string() + "2", work); });
+    expect_error(ErrorCode::usage, "only one can be active at a time",
+                 [&] { ResumeScope(file_.string() + "2", work); });
     EXPECT_FALSE(fs::exists(file_.string() + "2"));
 }
 
