@@ -21,7 +21,7 @@ std::vector<std::string> take_like(Command& command, const std::string& file);
 std::optional<Metadata> run_of_make(const std::filesystem::path& path);
 
 /// Returns the command line stored in a file's metadata, without its output: "hogel render pumpkin --hogels 64x64".
-/// Returns an empty text if the entries contain no command.
+/// Returns an empty text if the entries contain no known command or not its input.
 std::string command_line_of(const Metadata& entries);
 
 }  // namespace hogel::cli

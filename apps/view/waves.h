@@ -20,7 +20,8 @@ class Waves {
     /// Receives the mean of the looks so far, and their number.
     using Shown = std::function<void(const Image&, std::size_t)>;
 
-    /// @param making  progress of the work shared by all viewpoints, holograms included; newer queries do not cancel it
+    /// @param memory  BandCamera::memory of each of the two photographers
+    /// @param making  progress of their work that all viewpoints share, not of make(); newer queries do not cancel it
     Waves(Make make, std::size_t looks, std::size_t memory, Progress making);
 
     std::size_t looks() const { return looks_; }

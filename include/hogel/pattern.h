@@ -60,8 +60,8 @@ HOGEL_API Table<EncodingInfo>& encodings();
 struct PatternOptions {
     Encoding encoding = Encoding::phase;
     Modulator modulator;
-    /// Angle of the reference wave R in the xz plane, radians, for encodings with R. 0: the middle of the range of
-    /// angles that separate the diffraction orders.
+    /// Angle of the reference wave R in the xz plane, radians, positive, for encodings with R. 0: the middle, in sines,
+    /// of the range of angles that separate the diffraction orders.
     double reference_angle = 0;
     double clip = 0.001;  ///< fraction of the samples with a modulus that is clipped
     /// Side of the squares of the local spectra, pixels; the side of a hogel suits best.

@@ -53,7 +53,7 @@ std::array<ProjectedPoint, 3> project(const DeepTriangle& triangle, CameraPoint 
 
 /// Parts of a tile's rectangle of camera points that see a triangle's front or its back, separated by the intersection
 /// of the triangle's plane with the camera plane. Each is empty, a polygon of three to five corners, or the full
-/// rectangle. Source: [K] 5.7.1. Differs: the part that sees the back is dropped only if back faces are culled.
+/// rectangle. Source: [K] 5.7.1. Differs: the part that sees the back is kept; callers cull back faces.
 struct RegionSides {
     std::vector<CameraPoint> front, back;
 };

@@ -14,7 +14,7 @@ namespace hogel::zerotrees {
 /// coarse sample at their position; coarse samples are roots. With several groups of axes the parent is found in each
 /// group independently; a group stays at its coarse samples once it has reached them.
 ///
-/// Sizes are arbitrary: if the number of children is odd, the last parent has three. Orientations with details along an
+/// Sizes are arbitrary: the last parent takes the remaining children, one to three. Orientations with details along an
 /// axis that is no longer split are children of the nearest orientation without that axis.
 class Forest {
   public:

@@ -76,9 +76,9 @@ class ArithmeticEncoder {
     bool first_ = true;        // no byte is held yet
 };
 
-/// Decodes the output of an ArithmeticEncoder. ended() becomes true when a decision depends on bytes beyond the end;
-/// this decision and all later ones are meaningless but within their alphabets. A prefix of a code yields exactly the
-/// decisions that it determines.
+/// Decodes the output of an ArithmeticEncoder. ended() becomes true when a decision depends on bytes beyond the end
+/// or the code is damaged; this decision and all later ones are meaningless but within their alphabets. A prefix of a
+/// code yields exactly the decisions that it determines.
 class ArithmeticDecoder {
   public:
     explicit ArithmeticDecoder(std::span<const std::uint8_t> bytes);

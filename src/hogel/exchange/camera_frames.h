@@ -36,8 +36,9 @@ struct CameraGrid {
 };
 
 /// Arranges the cameras in rows and columns, as seen from behind the cameras. Throws Error(bad_input), naming the file
-/// and a frame, if cameras are rotated relative to each other, do not lie on a plane parallel to their pictures, leave
-/// a grid position empty or share one, differ in focal length, or if the pictures have no common zero-parallax plane.
+/// and any frame at fault, if cameras are rotated relative to each other, lie off a plane parallel to their pictures or
+/// off an even grid, leave a grid position empty or share one, differ in focal length, or if the pictures have no
+/// common zero-parallax plane.
 /// @param width, height  of every picture, pixels
 CameraGrid arrange(const std::filesystem::path& file, const std::vector<CameraFrame>& frames, std::size_t width,
                    std::size_t height);

@@ -62,7 +62,7 @@ Grid padded(const Grid& plane, double size_x, double size_y);
 /// Returns the plane waves of a field at the frequencies in `band` that its samples represent. Reads the field row by
 /// row. Memory: an array with the larger number of rows of field and band, and the columns of the band. Throws
 /// Error(usage) for a window that is smaller than the field or has another pitch, and for a band without frequencies.
-/// @param window        a grid with the pitch and centre of the field, at least as large; see padded()
+/// @param window        the field's grid with an even number of samples added along each axis; see padded()
 /// @param communicator  ranks that share the work; all ranks call it and get their columns of the spectrum. Null: none
 Spectrum spectrum_of(const FieldSource& field, std::size_t look, const Grid& window, const Band& band,
                      const ScratchOptions& scratch = {}, const Progress& progress = {},

@@ -48,8 +48,9 @@ struct Storage {
     std::vector<std::size_t> chunk;  ///< shape of the chunks; empty without chunks
     std::size_t chunk_bytes = 0;     ///< of a chunk, otherwise of an element
 };
-/// Returns the storage of a dataset. Calls fail(), which throws, for samples that were never written (HDF5 would read
-/// zeros), for references to other files and for large chunks. Requires a Session.
+/// Returns the storage of a dataset. Calls fail(), which throws, for fewer stored bytes than samples need (HDF5 would
+/// read zeros), for references to other files and for large chunks. A missing chunk beside padded or compressed ones is
+/// not found. Requires a Session.
 Storage storage_of(hid_t dataset, const std::vector<std::size_t>& shape,
                    const std::function<void(const std::string&)>& fail);
 
@@ -63,8 +64,9 @@ struct Contents {
     std::optional<PartOf> part = {};
 };
 
-/// Writer of a file of datasets, thread-safe. HDF5 lays the file out; finish() renames it to its final name. The ranks
-/// of a communicator write one file together; the root lays it out, renames it and keeps its journal.
+/// Thread-safe writer of a file of datasets. HDF5 lays the file out; finish() renames it to its final name. All ranks
+/// of a communicator construct it, write, and call finish(); the root lays the file out, renames it and keeps its
+/// journal.
 class DatasetFile {
   public:
     /// @param resume  as in LightFieldFileOptions
