@@ -348,13 +348,13 @@ void RankCommunicator::listen(std::uint64_t channel, std::function<void(std::str
     listeners_[channel] = std::move(take);
 }
 
-void RankCommunicator::send_to(std::size_t process, std::string bytes) {
-    link_.send(process, Kind::direct, std::move(bytes));
+void RankCommunicator::send_to(std::size_t destination, std::string bytes) {
+    link_.send(destination, Kind::direct, std::move(bytes));
 }
 
-std::string RankCommunicator::receive_from(std::size_t process) {
+std::string RankCommunicator::receive_from(std::size_t source) {
     for (;;) {
-        std::list<std::string>& messages = direct_[process];
+        std::list<std::string>& messages = direct_[source];
         if (!messages.empty()) {
             std::string first = std::move(messages.front());
             messages.pop_front();

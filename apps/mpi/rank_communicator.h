@@ -47,8 +47,8 @@ class RankCommunicator final : public Communicator {
     std::uint64_t sum(std::uint64_t number) override;
     void send(std::uint64_t channel, std::string bytes) override;
     void listen(std::uint64_t channel, std::function<void(std::string bytes)> take) override;
-    void send_to(std::size_t process, std::string bytes) override;
-    std::string receive_from(std::size_t process) override;
+    void send_to(std::size_t destination, std::string bytes) override;
+    std::string receive_from(std::size_t source) override;
 
     /// Connects stop sources: a stop request on any rank is passed to the sources of all ranks.
     void stop_with(std::stop_source stop);

@@ -25,7 +25,7 @@ TEST_P(RanksTest, EveryTileIsHandedOutOnce) {
                     ++taken[queue * tiles + *tile];
                     if (random() % 8 == 0) std::this_thread::sleep_for(std::chrono::microseconds(100));
                 }
-                communicator.meet();
+                communicator.barrier();
             }
             EXPECT_FALSE(communicator.settle({}, patience)->failed);
         });
@@ -39,7 +39,7 @@ TEST_P(RanksTest, AllGetTheSumAndWhatTheFirstShares) {
         for (std::uint64_t round = 1; round < 20; ++round) {
             EXPECT_EQ(communicator.sum(round * (communicator.rank() + 1)), round * size * (size + 1) / 2);
             const std::string text(1000 * round, static_cast<char>('a' + round));
-            EXPECT_EQ(communicator.share(communicator.is_root() ? text : "of another"), text);
+            EXPECT_EQ(communicator.broadcast(communicator.is_root() ? text : "of another"), text);
         }
         EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
@@ -53,10 +53,10 @@ TEST_P(RanksTest, AFailureOfOneIsThatOfAll) {
             Report local;
             try {
                 if (communicator.rank() == failing) throw Error(ErrorCode::bad_input, "the file is damaged");
-                if (communicator.rank() % 2 == 0) communicator.meet();
+                if (communicator.rank() % 2 == 0) communicator.barrier();
                 while (communicator.next_tile(7, std::uint64_t{1} << 40))
                     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                communicator.meet();
+                communicator.barrier();
             } catch (const Error& error) {
                 local = {true, static_cast<int>(error.code()), error.code(), 0, error.what()};
             }
@@ -74,7 +74,7 @@ TEST_P(RanksTest, AStopOfOneStopsAll) {
     run_ranks(size, [&](RankCommunicator& communicator) {
         std::stop_source stop;
         communicator.stop_with(stop);
-        communicator.meet();
+        communicator.barrier();
         if (communicator.rank() == size - 1) stop.request_stop();
         EXPECT_TRUE(comes_true([&] { return stop.stop_requested(); }));
         const Report local{true, communicator.rank() == size - 1 ? 143 : 6, ErrorCode::cancelled, 0, "stopped"};
@@ -89,13 +89,13 @@ TEST(RankCommunicator, StopsWithoutOneThatIsLost) {
         run_ranks(3, [&](RankCommunicator& communicator) {
             std::stop_source stop;
             communicator.stop_with(stop);
-            communicator.meet();
+            communicator.barrier();
             if (communicator.rank() == lost) return;
             // The root receives the other's report before it collects the silent ranks, and vice versa.
             if (lost == 0 || communicator.is_root()) stop.request_stop();
             EXPECT_TRUE(comes_true([&] { return stop.stop_requested(); }));
             EXPECT_TRUE(comes_true([&] { return !communicator.is_root() || other_has_given_up; }));
-            EXPECT_THROW(communicator.meet(), Error);
+            EXPECT_THROW(communicator.barrier(), Error);
             other_has_given_up = true;
             std::vector<std::size_t> silent;
             const Report local{true, 143, ErrorCode::cancelled, 0, "stopped"};
@@ -115,11 +115,11 @@ TEST_P(RanksTest, StopsOneThatComesLate) {
         run_ranks(GetParam(), [&](RankCommunicator& communicator) {
             std::stop_source stop;
             communicator.stop_with(stop);
-            communicator.meet();
+            communicator.barrier();
             if (communicator.rank() != late) stop.request_stop();
             EXPECT_TRUE(comes_true([&] { return communicator.rank() != late || have_given_up == others; }));
             try {
-                communicator.meet();
+                communicator.barrier();
             } catch (const Error&) {
                 ++have_given_up;
             }
@@ -139,7 +139,7 @@ TEST(RankCommunicator, TheFirstHearsWhatOthersSendInTheirOrder) {
                 const std::lock_guard lock(mutex);
                 heard[text.at(0)].push_back(text.at(1));
             });
-        communicator.meet();
+        communicator.barrier();
         if (!communicator.is_root())
             for (int i = 0; i < 100; ++i)
                 communicator.send(5, {static_cast<char>(communicator.rank()), static_cast<char>(i)});

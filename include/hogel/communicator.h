@@ -46,9 +46,9 @@ class HOGEL_API Communicator {
     /// rank has failed, it throws that rank's error in all others.
     virtual std::uint64_t sum(std::uint64_t number) = 0;
     /// Waits until all ranks have called it. Throws as sum() does.
-    void meet() { sum(0); }
-    /// Waits as meet() does, and returns the root rank's message in all ranks.
-    std::string share(const std::string& message);
+    void barrier() { sum(0); }
+    /// Waits as barrier() does, and returns the root rank's message in all ranks.
+    std::string broadcast(const std::string& message);
 
     /// Sends bytes to the root rank, in order, without waiting. Other ranks only; thread-safe.
     virtual void send(std::uint64_t channel, std::string bytes) = 0;
@@ -57,10 +57,10 @@ class HOGEL_API Communicator {
     virtual void listen(std::uint64_t channel, std::function<void(std::string bytes)> callback) = 0;
 
     /// Sends bytes to any other rank, in order, without waiting.
-    virtual void send_to(std::size_t process, std::string bytes) = 0;
+    virtual void send_to(std::size_t destination, std::string bytes) = 0;
     /// Waits for the next bytes that a rank sends with send_to(). Not thread-safe. Throws Error(cancelled) if a rank
     /// failed.
-    virtual std::string receive_from(std::size_t process) = 0;
+    virtual std::string receive_from(std::size_t source) = 0;
 
     /// Returns a number for a queue or channel. All ranks call it in the same order. Callers may use numbers below 2³².
     std::uint64_t next_number() { return numbers_++; }

@@ -40,7 +40,7 @@ TEST_P(SharedWorkTest, TheFirstMergesAllInOrder) {
                 EXPECT_EQ(bytes, std::string(i % 7, 'x') + std::to_string(i));
                 merged = i + 1;
             });
-        EXPECT_EQ(communicator.share(communicator.is_root() ? "done" : ""), "done");
+        EXPECT_EQ(communicator.broadcast(communicator.is_root() ? "done" : ""), "done");
         EXPECT_FALSE(communicator.settle({}, patience)->failed);
     });
     EXPECT_EQ(merged, n);
@@ -115,7 +115,7 @@ TEST_P(SharedWorkTest, AFailureEndsAll) {
                     [&](std::size_t i, std::string_view) {
                         if (merging && i == 100) throw Error(ErrorCode::bad_input, "damaged");
                     });
-                communicator.meet();
+                communicator.barrier();
             } catch (const Error& error) {
                 own = {true, static_cast<int>(error.code()), error.code(), 0, error.what()};
             }

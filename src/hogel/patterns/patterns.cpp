@@ -51,7 +51,7 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
         fields.size(), {put, get},
         [&](std::size_t i) { return encode_pattern(*fields[i], options, progress.part(i, fields.size())); },
         [&](std::size_t i, Pattern& pattern) { patterns[i] = std::move(pattern); });
-    for (Pattern& pattern : patterns) work::share_result<Pattern>(pattern, {put, get});
+    for (Pattern& pattern : patterns) work::broadcast_result<Pattern>(pattern, {put, get});
     return patterns;
 }
 

@@ -14,8 +14,8 @@ std::atomic<Communicator*> current_communicator = nullptr;
 
 }  // namespace
 
-std::string Communicator::share(const std::string& root_value) {
-    meet();
+std::string Communicator::broadcast(const std::string& root_value) {
+    barrier();
     if (!is_root()) return receive_from(0);
     for (std::size_t rank = 1; rank < size(); ++rank) send_to(rank, root_value);
     return root_value;

@@ -104,12 +104,12 @@ void shared_jobs(std::size_t n, const Sent<Result>& sent, const std::function<Re
 
 /// Copies a result of the root to all ranks.
 template <class Result>
-void share_result(Result& result, const Sent<Result>& sent) {
+void broadcast_result(Result& result, const Sent<Result>& sent) {
     Communicator* const current = communicator_of_several();
     if (current == nullptr) return;
     MessageWriter message;
     if (current->is_root()) sent.write(message, result);
-    const std::string bytes = current->share(message.take());
+    const std::string bytes = current->broadcast(message.take());
     MessageReader reader(bytes);
     if (!current->is_root()) result = sent.read(reader);
 }

@@ -92,7 +92,7 @@ DepthCoding depth_coding(const LightField& light_field, std::optional<double> bo
             tiling.count(), work::default_in_flight(), {}, [&](std::size_t i) { return depths_of(*face, tiling[i]); },
             [&](std::size_t, Range& depths) { range.include(depths); });
     }
-    work::share_result(range, {});
+    work::broadcast_result(range, {});
     if (range.nearest > range.farthest) range = {0, 0};
     return DepthCoding(
         range.nearest, range.farthest,

@@ -93,10 +93,10 @@ CodingOutcome TileCompression::code(std::span<const std::size_t> tiles, double s
             }
             progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles.size()));
         });
-    work::share_result(sum, {});
+    work::broadcast_result(sum, {});
     if (write) {
         writer_.share_entries();
-        work::share_result(sizes_, work::sent_vector<std::size_t>());
+        work::broadcast_result(sizes_, work::sent_vector<std::size_t>());
     }
     return sum;
 }
@@ -111,7 +111,7 @@ CodingOutcome TileCompression::look(std::span<const std::size_t> tiles) {
             return outcome;
         },
         [&](std::size_t, CodingOutcome& outcome) { sum.add(outcome); });
-    work::share_result(sum, {});
+    work::broadcast_result(sum, {});
     return sum;
 }
 
@@ -146,7 +146,7 @@ coding::MagnitudeHistogram TileCompression::magnitudes() {
             sum.add(histogram);
             progress_.report(static_cast<double>(i + 1) / static_cast<double>(tiles()));
         });
-    work::share_result(sum, sent);
+    work::broadcast_result(sum, sent);
     return sum;
 }
 

@@ -119,7 +119,7 @@ LuminanceHistogram luminance_histogram(const LightField& light_field, const Prog
                                 static_cast<double>(faces.size()));
             });
     }
-    work::share_result(sum, sent);
+    work::broadcast_result(sum, sent);
     return sum;
 }
 

@@ -101,7 +101,7 @@ void StreamWriter::append(std::span<const std::uint8_t> tile, std::span<const st
 }
 
 void StreamWriter::share_entries() {
-    work::share_result(entries_, work::sent_vector<StreamEntry>());
+    work::broadcast_result(entries_, work::sent_vector<StreamEntry>());
     next_ = entries_.empty() ? 0 : entries_.back().offset + entries_.back().bytes;
 }
 
@@ -118,7 +118,7 @@ void StreamWriter::finish(std::uint64_t filler) {
         file.close();
         output.commit();
     }
-    if (Communicator* const ranks = communicator()) ranks->meet();  // waits until the file has its name
+    if (Communicator* const ranks = communicator()) ranks->barrier();  // waits until the file has its name
 }
 
 void StreamWriter::write(core::RawFile& file, std::uint64_t filler) {

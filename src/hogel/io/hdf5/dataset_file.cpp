@@ -111,15 +111,15 @@ DatasetFile::DatasetFile(const std::filesystem::path& path, Contents contents, c
 void DatasetFile::lay_out_shared(const Contents& contents, const std::optional<std::string>& resume) {
     static std::atomic<std::uint64_t> files{0};
     number_ = files++;
-    communicator_->meet();  // all memory is allocated before disk space
+    communicator_->barrier();  // all memory is allocated before disk space
     if (communicator_->is_root()) {
         lay_out(contents, resume);
         SharedLayout layout{output_->temporary(), offsets_, journal_.has_value(), {}};
         if (journal_) layout.before = journal_->before();
-        communicator_->share(to_text(layout));
+        communicator_->broadcast(to_text(layout));
         if (journal_) communicator_->listen(number_, [this](const std::string& lines) { take(lines); });
     } else {
-        const SharedLayout layout = from_text(communicator_->share(""));
+        const SharedLayout layout = from_text(communicator_->broadcast(""));
         offsets_ = layout.offsets;
         raw_.emplace(layout.temporary, core::RawFile::Mode::write, path_);
         if (layout.resumes)
@@ -246,12 +246,12 @@ void DatasetFile::write(std::size_t dataset, const Box& box, const std::complex<
 
 void DatasetFile::finish() {
     raw_->close();
-    if (communicator_ != nullptr) communicator_->meet();  // all ranks have written
+    if (communicator_ != nullptr) communicator_->barrier();  // all ranks have written
     if (output_ && is_part_) complete_part(output_->temporary(), path_);
     if (output_) output_->commit();
     if (journal_) journal_->remove();
     finished_ = true;
-    if (communicator_ != nullptr) communicator_->meet();  // the file has its final name
+    if (communicator_ != nullptr) communicator_->barrier();  // the file has its final name
 }
 
 }  // namespace hogel::io::hdf5
