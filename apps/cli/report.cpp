@@ -135,9 +135,9 @@ std::string figure_html(const MadePhotographs& photographs, std::size_t looks, c
         compare(count, photographs.waves->comparison);
     }
     if (photographs.speckle_free) {
-        add(photographs.speckle_free->image, photographs.camera.speckle_free_file(), "waves, infinitely many looks",
-            "waves, the mean of infinitely many looks");
-        compare("infinitely many looks", photographs.speckle_free->comparison);
+        add(photographs.speckle_free->image, photographs.camera.speckle_free_file(), "waves, speckle-free",
+            "waves, speckle-free: the mean over infinitely many looks");
+        compare("speckle-free", photographs.speckle_free->comparison);
     }
     add(photographs.rays, photographs.camera.ray_file(), "rays", "rays");
     return fmt::format(
@@ -184,8 +184,8 @@ std::string samples_text(const Made& made) {
 
 std::string looks_text(const Made& made) {
     const std::size_t looks = looks_of(made);
-    if (looks == 0) return "infinitely many";
-    return std::to_string(looks) + (made.photographs.front().speckle_free ? "; and infinitely many" : "");
+    if (looks == 0) return "speckle-free";
+    return std::to_string(looks) + (made.photographs.front().speckle_free ? "; and speckle-free" : "");
 }
 
 std::string tables_html(const Report& report, const Made& made) {

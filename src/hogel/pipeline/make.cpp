@@ -67,17 +67,17 @@ bool has_speckle_free(const MakeRequest& request, std::span<const LightFieldGrid
 
 // Returns the photographs by waves, [stage][series]. Several ranks share all of them in one stage, so that no rank
 // waits for the others between stages.
-std::vector<std::vector<Series>> stages_of_waves(const MakeRequest& request, bool speckle_free) {
+std::vector<std::vector<Series>> stages_of_waves(const MakeRequest& request, bool with_speckle_free) {
     std::vector<std::vector<Series>> stages;
     if (!std::holds_alternative<SpeckleFreeCamera>(request.camera))
         stages.push_back({{"photographs by waves", request.camera, &MadePhotographs::waves}});
-    if (!speckle_free) return stages;
-    const Series expected{"expected photographs", SpeckleFreeCamera(), &MadePhotographs::speckle_free};
+    if (!with_speckle_free) return stages;
+    const Series speckle_free{"speckle-free photographs", SpeckleFreeCamera(), &MadePhotographs::speckle_free};
     const Communicator* const ranks = communicator();
     if (ranks != nullptr && ranks->size() > 1 && !stages.empty())
-        stages.front().push_back(expected);
+        stages.front().push_back(speckle_free);
     else
-        stages.push_back({expected});
+        stages.push_back({speckle_free});
     return stages;
 }
 

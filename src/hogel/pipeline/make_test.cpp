@@ -78,7 +78,7 @@ TEST_F(Make, pictures_do_not_depend_on_files) {
     };
     const Made stored = make(scene_, request_, files);
     EXPECT_EQ(stages, (std::vector<std::string>{"lighting", "light field", "photographs by rays", "hologram file",
-                                                "photographs by waves", "expected photographs"}));
+                                                "photographs by waves", "speckle-free photographs"}));
     EXPECT_EQ(compare(open_light_field(files.light_field_file), memory.light_field).max_error, 0);
     EXPECT_EQ(compare(open_hologram(files.hologram_file), memory.holograms).max_error, 0);
     EXPECT_EQ(stored.exposure, memory.exposure);
