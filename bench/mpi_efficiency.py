@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Measures each stage with 1 rank of 2 threads and with 2 ranks of 1 thread, alternately, including files and the start of
-MPI. Prints a table, of which docs/cluster.md shows the elapsed times. Figures are valid only on an idle machine with two processors.
+MPI. Prints a table; docs/cluster.md shows its elapsed times. Figures are valid only on an idle machine with two processors.
 
 usage: mpi_efficiency.py HOGEL HOGEL_MPI MPIRUN [--stages NAME,NAME] [--rounds N] [--small | --large] [--require]
        --small: small sizes, for testing this program; --large: four times the work

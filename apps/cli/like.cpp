@@ -57,7 +57,7 @@ void require_same_command(const Metadata& entries, const Command& command, const
                     fmt::format("--like: {} was made by '{}', not by 'hogel {}'", file, command_name, command.name()));
 }
 
-// Returns the names of the given parameters and of those that they exclude.
+// Returns the names of the given parameters and of the parameters that these exclude.
 std::set<std::string> names_to_keep(const Command& command) {
     std::set<std::string> keep;
     for (const Parameter& each : command.all()) {

@@ -21,7 +21,7 @@
 
 namespace hogel::mpi {
 
-/// Contribution of a rank to a meeting of all ranks, and the combined answer of the root.
+/// Contribution of a rank to a barrier of all ranks, and the combined answer of the root.
 struct Report {
     bool failed = false;
     int status = 0;  ///< exit status

@@ -45,7 +45,7 @@ TEST_P(RanksTest, AllGetTheSumAndWhatTheFirstShares) {
     });
 }
 
-// The error of one rank ends all ranks: those that wait in a meeting and those that take tiles.
+// The error of one rank ends all ranks, whether they wait at a barrier or take tiles.
 TEST_P(RanksTest, AFailureOfOneIsThatOfAll) {
     const std::size_t size = GetParam();
     for (std::size_t failing = 0; failing < size; ++failing)
@@ -107,7 +107,7 @@ TEST(RankCommunicator, StopsWithoutOneThatIsLost) {
     }
 }
 
-// A rank that reaches a meeting after all others have stopped waiting is still stopped by their failure.
+// A rank that reaches a barrier after all others have stopped waiting is still stopped by their failure.
 TEST_P(RanksTest, StopsOneThatComesLate) {
     const std::size_t others = GetParam() - 1;
     for (std::size_t late = 0; late < GetParam(); ++late) {

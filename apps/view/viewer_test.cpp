@@ -22,7 +22,7 @@ LightField grey() {
     return LightField(buffer);
 }
 
-// Holograms whose computation lasts until nobody waits for them.
+// Holograms whose computation lasts until no page waits for them.
 struct Endless {
     std::shared_ptr<Viewer> viewer = std::make_shared<Viewer>(Access("127.0.0.1", 80, ""));
     std::promise<void> began, ended;

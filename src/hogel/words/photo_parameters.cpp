@@ -33,8 +33,7 @@ std::size_t WaveCameraParameters::number_of_looks() const {
     constexpr double max_looks = 1 << 24;
     const std::optional<double> number = parse_number(looks);
     if (!number || !(*number >= 1 && *number <= max_looks) || *number != std::floor(*number))
-        refuse("looks", fmt::format("'{}' is not a number of pictures from 1 to {:.0f}; expected such a number", looks,
-                                    max_looks));
+        refuse("looks", fmt::format("'{}' is not a number of looks from 1 to {:.0f}", looks, max_looks));
     return static_cast<std::size_t>(*number);
 }
 
