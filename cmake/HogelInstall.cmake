@@ -9,6 +9,7 @@ install(TARGETS hogel EXPORT hogelTargets
         ARCHIVE COMPONENT development)
 if(TARGET hogel_cli)
   install(TARGETS hogel_cli COMPONENT program)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/hogel DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
   if(TARGET hogel_view)
     install(TARGETS hogel_view COMPONENT program)
   endif()

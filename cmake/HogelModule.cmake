@@ -80,6 +80,20 @@ function(hogel_part name)
   endif()
 endfunction()
 
+# Compiles the device profiles of share/hogel/devices into a module, by the header own_profiles.h.
+function(hogel_embed_profiles target)
+  file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/share/hogel/devices/*.json)
+  foreach(file ${files})
+    file(READ ${file} text)
+    cmake_path(GET file FILENAME name)
+    string(REGEX REPLACE "\\.json$" "" name ${name})
+    string(APPEND profiles "    {\"${name}\", R\"json(${text})json\"},\n")
+  endforeach()
+  set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+  configure_file(${PROJECT_SOURCE_DIR}/src/hogel/patterns/own_profiles.h.in ${PROJECT_BINARY_DIR}/embedded/own_profiles.h @ONLY)
+  target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/embedded)
+endfunction()
+
 # Tells a source by macros, 1 or 0, which parts there are.
 function(hogel_tell_parts source)
   foreach(part ASSIMP DRACO MESHOPT EMBREE HDF5 PICTURES ZLIB TIFF WEBP)

@@ -19,7 +19,7 @@ THIRD_PARTY = {  # first part of the include path -> the modules or folders that
     "jpeglib.h": {"image/formats"}, "stb": {"image/formats"}, "tiffio.h": {"image/formats"}, "webp": {"image/formats"}, "assimp": {"scene"}, "draco": {"scene"}, "meshoptimizer.h": {"scene"}, "embree3": {"trace"},
     "hdf5.h": {"io/hdf5"}, "hwy": {"camera", "codec", "core", "direct", "fringes", "lightfield", "math", "optics",
             "render", "shading", "simplex", "stereogram"}, "fmt": None,
-    "nlohmann": {"core", "scene", "exchange"}, "gtest": None, "boost": set(),
+    "nlohmann": {"core", "scene", "exchange", "patterns"}, "gtest": None, "boost": set(),
 }
 FORBIDDEN_IN = {  # folder -> folders that it may not include
     "codec/format": ("codec/encode", "codec/decode"),

@@ -8,8 +8,8 @@ using namespace hogel;
 using namespace hogel::literals;
 
 int main() {
-    Modulator modulator = modulators().find("leto");  // or define a Modulator
-    modulator.width = 480;                            // use a part of it, to save time
+    Modulator modulator = find_modulator("leto");  // or define a Modulator
+    modulator.width = 480;                         // use a part of it, to save time
     modulator.height = 270;
 
     LightFieldRequest request;

@@ -102,6 +102,7 @@ int slm(Options& options, const Session& session) {
     if (is_automatic) session.detail(fmt::format("encoding {} suits the field", encoding));
     Metadata metadata = run_metadata(session);
     for (auto& entry : options.pattern.metadata(encoded, fields)) metadata.push_back(std::move(entry));
+    for (const std::string& note : options.pattern.notes(fields)) session.say(note);
     ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
         const Pattern& pattern = encoded.patterns[c];

@@ -15,18 +15,43 @@
 
 namespace hogel {
 
-/// A spatial light modulator.
+/// A spatial light modulator. The members after `levels` are those of its profile (docs/modulators.md).
 struct Modulator {
     std::string name;
-    std::size_t width = 0, height = 0;  ///< pixels
-    double pitch = 0;                   ///< distance of pixels, metres
-    unsigned levels = 256;              ///< number of evenly spaced drive levels
+    std::size_t width = 0, height = 0;      ///< pixels, at most max_modulator_side
+    double pitch = 0;                       ///< distance of pixels, metres
+    unsigned levels = 256;                  ///< number of evenly spaced drive levels, at most max_modulator_levels
+    std::string title = {};                 ///< maker and model
+    std::vector<std::string> aliases = {};  ///< other names, for find_modulator()
+    std::string modulation = {};            ///< "phase" or "amplitude"; empty: either
+    std::string phase_code = {};            ///< for parse_phase_code(); empty: any
+    double fill_factor = 0;                 ///< share of a pixel's area that modulates; 0: unknown
+    double shortest_wavelength = 0, longest_wavelength = 0;  ///< of its light, metres; 0: unknown
+    double refresh_rate = 0;                                 ///< pictures a second; 0: unknown
+    std::string source = {};                                 ///< address of a page with these figures
+    bool verified = true;                                    ///< whether they were compared with `source`
+    std::string note = {};                                   ///< one line for its user
+    std::string fault = {};                                  ///< why the user's profile cannot be used, or empty
 
     friend bool operator==(const Modulator&, const Modulator&) = default;
 };
+inline constexpr unsigned max_modulator_side = 65536, max_modulator_levels = 256;
 
-/// Returns the modulators by name: common ones with the values of their data sheets, and those that the program adds.
+/// Returns the modulators by name: those of hogel's profiles, those of *.json in the user's folder, which replace
+/// profiles of the same name, and those that the program adds. The folder is $XDG_CONFIG_HOME/hogel/devices, or
+/// ~/.config/hogel/devices, and is read once. Builds with HOGEL_MINIMAL have no profiles.
 HOGEL_API Table<Modulator>& modulators();
+
+/// Returns the names and aliases of modulators().
+HOGEL_API std::vector<std::string> modulator_names();
+
+/// Returns the row of modulators() with this name or alias, in upper or lower case. Throws Error(usage) for an unknown
+/// name, with the nearest one and all, and Error(bad_input) for a profile of the user with a fault.
+HOGEL_API Modulator find_modulator(const std::string& name);
+
+/// Returns what the user of a modulator should know: that its profile is not verified, the profile's note, and
+/// wavelengths (metres) for which it is not made.
+HOGEL_API std::vector<std::string> notes_about(const Modulator& modulator, std::span<const double> wavelengths);
 
 /// Methods to represent a complex field F by the pixels of a modulator: phases 0..2π or transmitted amplitudes 0..1.
 enum class Encoding {

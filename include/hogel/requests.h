@@ -185,19 +185,23 @@ struct HOGEL_API CompressionParameters {
 struct HOGEL_API PatternParameters {
     std::string encoding = "auto";  ///< name of a row of encodings(), or auto: selected for the fields
     PatternOptions pattern;         ///< except encoding, modulator and phase code
-    std::string device;        ///< name of a row of modulators(), in upper or lower case; empty: the next three values
-    Counts pixels;             ///< across and down
-    double pixel_pitch = 0;    ///< metres
-    std::size_t levels = 256;  ///< per pixel
-    std::string phase_code = "hogel";  ///< for parse_phase_code()
+    std::string device;             ///< for find_modulator(); empty: the next three values
+    Counts pixels;                  ///< across and down
+    double pixel_pitch = 0;         ///< metres
+    std::size_t levels = 256;       ///< per pixel
+    std::string phase_code;         ///< for parse_phase_code(); empty: that of the device, or hogel
 
-    /// Returns the named or described modulator. Throws Error(usage).
+    /// Returns the named or described modulator. Throws Error(usage), and as find_modulator() does.
     Modulator modulator() const;
+    /// Returns the phase code that is used.
+    std::string code() const;
+    /// Returns notes_about() the modulator and the wavelengths of the fields.
+    std::vector<std::string> notes(const Fields& fields) const;
     /// Returns the options with modulator and phase code, and with the encoding unless it is auto. Throws Error(usage).
     PatternOptions options() const;
     /// Encodes the field of each wavelength. Throws as options() and encode_pattern() do.
     SuitablePatterns encode(const Fields& fields, const Progress& progress = {}) const;
-    /// Stores the selected encoding, and the device's name as modulators() spells it.
+    /// Stores the selected encoding, the device's name as modulators() spells it, and the phase code that is used.
     void resolve(Encoding chosen);
     /// Returns metadata of a pattern file: results of each wavelength, such as "efficiency at 532 nm", and
     /// field_entries().

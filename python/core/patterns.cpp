@@ -57,10 +57,21 @@ void add_encodings(py::module_& module) {
         .def_readonly("width", &Modulator::width)
         .def_readonly("height", &Modulator::height)
         .def_readonly("pitch", &Modulator::pitch)
-        .def_readonly("levels", &Modulator::levels);
-    module.def("modulators", [] { return modulators().names(); });
-    module.def(
-        "modulator", [](const std::string& name) { return modulators().find(name); }, arg("name"));
+        .def_readonly("levels", &Modulator::levels)
+        .def_readwrite("title", &Modulator::title)
+        .def_readwrite("aliases", &Modulator::aliases)
+        .def_readwrite("modulation", &Modulator::modulation)
+        .def_readwrite("phase_code", &Modulator::phase_code)
+        .def_readwrite("fill_factor", &Modulator::fill_factor)
+        .def_readwrite("shortest_wavelength", &Modulator::shortest_wavelength)
+        .def_readwrite("longest_wavelength", &Modulator::longest_wavelength)
+        .def_readwrite("refresh_rate", &Modulator::refresh_rate)
+        .def_readwrite("source", &Modulator::source)
+        .def_readwrite("verified", &Modulator::verified)
+        .def_readwrite("note", &Modulator::note)
+        .def_readwrite("fault", &Modulator::fault);
+    module.def("modulators", &modulator_names);
+    module.def("find_modulator", &find_modulator, arg("name"));
 }
 
 // Raw pixel values of a picture and their maximum.
@@ -127,6 +138,10 @@ void add_pattern_keywords(py::module_& module) {
             return asked.table.acting();
         },
         arg("keywords"), arg("chosen"));
+    module.def(
+        "pattern_notes",
+        [](const py::dict& keywords, const Fields& fields) { return Asked(keywords).values.notes(fields); },
+        arg("keywords"), arg("fields"));
     module.def(
         "pattern_metadata",
         [](const py::dict& keywords, const SuitablePatterns& encoded, const Fields& fields) {

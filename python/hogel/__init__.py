@@ -190,7 +190,7 @@ def encodings() -> list[str]:
 
 
 def modulators() -> list[str]:
-    """Returns the names of common modulators, for `device`.
+    """Returns the names of modulators with a profile, and their other names, for `device`.
 
     >>> import hogel
     >>> "leto" in hogel.modulators()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -100,6 +101,8 @@ def pattern_of(
         raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")
     with reporting(progress, "pattern") as report:
         encoded = _core.encode_patterns(options, fields, report)
+    for note in _core.pattern_notes(options, fields):
+        warnings.warn(note, stacklevel=5)
     facts = _core.pattern_metadata(options, encoded, fields)
     if made is None:
         return Pattern(encoded, modulator, _record.by_function("Hologram.slm") + facts)

@@ -1,22 +1,74 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <strings.h>
+
+#include <algorithm>
+
+#include "hogel/error.h"
 #include "hogel/pattern.h"
+#include "hogel/patterns/device_profiles.h"
 #include "hogel/units.h"
 
 namespace hogel {
+namespace {
 
-using namespace literals;
+// Profiles of the user replace hogel's of the same name.
+std::vector<Modulator> all_profiles() {
+    std::vector<Modulator> profiles = patterns::own_profiles();
+    for (Modulator& users : patterns::profiles_in(patterns::user_profiles())) {
+        const auto same = std::ranges::find(profiles, users.name, &Modulator::name);
+        if (same == profiles.end())
+            profiles.push_back(std::move(users));
+        else
+            *same = std::move(users);
+    }
+    return profiles;
+}
+
+}  // namespace
 
 Table<Modulator>& modulators() {
-    static Table<Modulator> table("modulator",
-                                  {
-                                      {"gaea-2", 3840, 2160, 3.74_um},
-                                      {"leto", 1920, 1080, 6.4_um},
-                                      {"luna", 1920, 1080, 4.5_um},
-                                      {"pluto", 1920, 1080, 8.0_um},
-                                      {"ti-plm", 960, 540, 10.8_um, 16},
-                                  },
-                                  "device");
+    static Table<Modulator> table("modulator", all_profiles(), "device");
     return table;
+}
+
+Modulator find_modulator(const std::string& name) {
+    const std::vector<Modulator> rows = modulators().rows();
+    if (rows.empty())
+        throw Error(ErrorCode::not_built_in, "device",
+                    "builds with HOGEL_MINIMAL=ON have no device profiles; describe the modulator by its pixels");
+    const auto is_asked = [&](const std::string& word) { return strcasecmp(word.c_str(), name.c_str()) == 0; };
+    auto found = std::ranges::find_if(rows, is_asked, &Modulator::name);
+    if (found == rows.end())
+        found = std::ranges::find_if(rows,
+                                     [&](const Modulator& row) { return std::ranges::any_of(row.aliases, is_asked); });
+    if (found == rows.end()) throw_unknown("modulator", name, modulator_names(), "device");
+    if (!found->fault.empty()) throw Error(ErrorCode::bad_input, "device", found->fault);
+    return *found;
+}
+
+std::vector<std::string> modulator_names() {
+    std::vector<std::string> names;
+    for (const Modulator& row : modulators().rows()) {
+        names.push_back(row.name);
+        names.insert(names.end(), row.aliases.begin(), row.aliases.end());
+    }
+    return names;
+}
+
+std::vector<std::string> notes_about(const Modulator& modulator, std::span<const double> wavelengths) {
+    std::vector<std::string> notes;
+    if (!modulator.verified)
+        notes.push_back(fmt::format("profile {} is not verified: check its pixel pitch against the data sheet{}",
+                                    modulator.name, modulator.source.empty() ? "" : " (" + modulator.source + ")"));
+    if (!modulator.note.empty()) notes.push_back(fmt::format("profile {}: {}", modulator.name, modulator.note));
+    for (const double wavelength : wavelengths)
+        if (modulator.longest_wavelength > 0 &&
+            (wavelength < modulator.shortest_wavelength || wavelength > modulator.longest_wavelength))
+            notes.push_back(fmt::format("{} is made for {} to {}, not {}", modulator.name,
+                                        format_length(modulator.shortest_wavelength),
+                                        format_length(modulator.longest_wavelength), format_length(wavelength)));
+    return notes;
 }
 
 }  // namespace hogel

@@ -25,11 +25,16 @@ using Complex = std::complex<float>;
 void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
     const Modulator& modulator = options.modulator;
     if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
-        modulator.levels > 256)
+        modulator.levels > max_modulator_levels)
         throw Error(ErrorCode::usage, "pixel_pitch",
                     fmt::format("invalid modulator: {}x{} pixels, pitch {}, {} levels; expected a "
-                                "positive size and pitch, and 2 to 256 levels",
-                                modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels));
+                                "positive size and pitch, and 2 to {} levels",
+                                modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels,
+                                max_modulator_levels));
+    if (modulator.modulation == "amplitude" && is_phase_only(options.encoding))
+        throw Error(ErrorCode::usage, "encoding",
+                    fmt::format("{} modulates amplitudes; expected intensity, bipolar, burckhardt, lee or binary",
+                                modulator.name));
     for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
         if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
             throw Error(

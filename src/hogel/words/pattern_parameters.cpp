@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <strings.h>
 
 #include <algorithm>
 #include <numbers>
@@ -14,13 +13,6 @@ namespace hogel {
 namespace {
 
 constexpr const char* automatic_encoding = "auto";
-
-// Returns the name of a device in the table, found in upper or lower case.
-std::string device_name(const std::string& typed) {
-    for (const std::string& name : modulators().names())
-        if (strcasecmp(name.c_str(), typed.c_str()) == 0) return name;
-    return typed;
-}
 
 std::string encoding_name(Encoding encoding) {
     for (const EncodingInfo& info : encodings().rows())
@@ -81,15 +73,20 @@ void declare_pattern(Parameters& parameters, PatternParameters& asked) {
         });
 }
 
+std::string summary_of(const Modulator& modulator) {
+    if (!modulator.fault.empty()) return "has a fault in its profile";
+    return fmt::format("{}x{} at {}, {} levels{}", modulator.width, modulator.height, format_length(modulator.pitch),
+                       modulator.levels, modulator.verified ? "" : " (not verified)");
+}
+
 void declare_modulator(Parameters& parameters, PatternParameters& asked) {
-    std::string devices = "Modulator:";
+    std::string devices = "Modulator, as in its profile:";
     for (const Modulator& modulator : modulators().rows())
-        devices += fmt::format("\n{}: {}x{} at {}, {} levels", modulator.name, modulator.width, modulator.height,
-                               format_length(modulator.pitch), modulator.levels);
+        devices += fmt::format("\n{}: {}", modulator.name, summary_of(modulator));
     parameters.group("Modulator");
     const Parameter& device = parameters.text("--device", asked.device, "NAME", devices)
                                   .sets_parameter("pixel_pitch")
-                                  .knows(modulators().names());
+                                  .knows(modulator_names());
     const auto is_described = [&asked] { return asked.device.empty(); };
     parameters.counts("--pixels", asked.pixels, "Another modulator: pixels across and down")
         .no_default()
@@ -107,6 +104,7 @@ void declare_modulator(Parameters& parameters, PatternParameters& asked) {
     parameters
         .text("--phase-code", asked.phase_code, "CODE",
               codes + "\nany other: range=ANGLE,offset=ANGLE,invert, in deg, rad or pi (2pi)")
+        .default_text("of the device, or hogel")
         .acts_if([&asked] { return is_phase_only(encodings().find(asked.encoding).encoding); });
 }
 
@@ -117,19 +115,32 @@ Modulator PatternParameters::modulator() const {
     if (device.empty() == !is_described)
         throw Error(ErrorCode::usage, "device, pixels, pixel_pitch",
                     "name a modulator by device, or describe one by pixels and pixel pitch");
-    if (!is_described) return modulators().find(device_name(device));
+    if (!is_described) return find_modulator(device);
     if (pixels.columns == 0 || pixel_pitch == 0)
         throw Error(ErrorCode::usage, "pixels, pixel_pitch", "give both to describe a modulator");
-    if (std::max(pixels.columns, pixels.rows) > 65536)
-        throw Error(ErrorCode::usage, "pixels", "expected at most 65536 on a side");
-    if (levels < 2 || levels > 256) throw Error(ErrorCode::usage, "levels", "expected 2 to 256");
+    if (std::max(pixels.columns, pixels.rows) > max_modulator_side)
+        throw Error(ErrorCode::usage, "pixels", fmt::format("expected at most {} on a side", max_modulator_side));
+    if (levels < 2 || levels > max_modulator_levels)
+        throw Error(ErrorCode::usage, "levels", fmt::format("expected 2 to {}", max_modulator_levels));
     return {"", pixels.columns, pixels.rows, pixel_pitch, static_cast<unsigned>(levels)};
+}
+
+std::string PatternParameters::code() const {
+    if (!phase_code.empty()) return phase_code;
+    const std::string of_device = modulator().phase_code;
+    return of_device.empty() ? phase_code_text({}) : of_device;
+}
+
+std::vector<std::string> PatternParameters::notes(const Fields& fields) const {
+    std::vector<double> wavelengths;
+    for (const auto& field : fields) wavelengths.push_back(field->grid().wavelength);
+    return notes_about(modulator(), wavelengths);
 }
 
 PatternOptions PatternParameters::options() const {
     PatternOptions chosen = pattern;
     chosen.modulator = modulator();
-    chosen.phase_code = parse_phase_code(phase_code);
+    chosen.phase_code = parse_phase_code(code());
     if (encoding != automatic_encoding) chosen.encoding = encodings().find(encoding).encoding;
     return chosen;
 }
@@ -142,7 +153,8 @@ SuitablePatterns PatternParameters::encode(const Fields& fields, const Progress&
 
 void PatternParameters::resolve(Encoding chosen) {
     encoding = encoding_name(chosen);
-    if (!device.empty()) device = device_name(device);
+    phase_code = code();
+    if (!device.empty()) device = find_modulator(device).name;
 }
 
 Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fields& fields) const {
@@ -157,7 +169,7 @@ Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fiel
     }
     ExternalField external{.pitch_x = device_used.pitch, .pitch_y = device_used.pitch};
     external.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
-    external.phase_code = parse_phase_code(phase_code);
+    external.phase_code = parse_phase_code(code());
     for (auto& field_entry : field_entries(external, wavelengths)) entries.push_back(std::move(field_entry));
     return entries;
 }
