@@ -22,8 +22,7 @@ int main() {
     const auto field = make_hologram(light_field, options);
 
     const Pattern pattern = encode_pattern(*field, {.encoding = Encoding::double_phase, .modulator = modulator});
-    const View<const std::uint8_t, 2> levels = pattern.levels;
-    write_raw_pixels("pattern.png", {levels.data(), {levels.extent(0), levels.extent(1), 1}});
-    std::printf("pattern.png: %zu x %zu levels, efficiency %.1f %%\n", levels.extent(1), levels.extent(0),
+    write_patterns("pattern.png", {&pattern, 1});
+    std::printf("pattern.png: %zu x %zu levels, efficiency %.1f %%\n", modulator.width, modulator.height,
                 100 * pattern.efficiency);
 }

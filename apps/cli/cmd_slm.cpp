@@ -83,7 +83,7 @@ std::string powers_of(const std::vector<Pattern>& patterns) {
 
 int slm(Options& options, const Session& session) {
     const Modulator modulator = options.pattern.options().modulator;
-    require_raw_pixels_name(options.output);
+    require_raw_pixels_name(options.output, modulator.levels);
     require_writable(options.output, {&options.input, 1});
     ResumableOutput resumable(session, options.resume, options.output,
                               options.resume ? describe_input(options.input) : "");
@@ -93,7 +93,6 @@ int slm(Options& options, const Session& session) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
 
-    Array<std::uint8_t, 3> levels({modulator.height, modulator.width, colours});
     Stage stage(session, "pattern");
     const SuitablePatterns encoded = options.pattern.encode(fields, stage.progress());
     const bool is_automatic = options.pattern.encoding == "auto";
@@ -106,15 +105,13 @@ int slm(Options& options, const Session& session) {
     ResultList patterns;
     for (std::size_t c = 0; c < colours; ++c) {
         const Pattern& pattern = encoded.patterns[c];
-        for (std::size_t i = 0; i < pattern.levels.size(); ++i)
-            levels.data()[i * colours + c] = pattern.levels.data()[i];
         const double wavelength = fields[c]->grid().wavelength, per_cycle = wavelength / modulator.pitch;
         report(pattern, wavelength, per_cycle, encoded.encoding, session);
         patterns.push_back(result_of(pattern, wavelength, per_cycle, encoded.encoding));
     }
     if (colours == 3) session.say(powers_of(encoded.patterns));
     if (!is_root_rank()) return 0;
-    write_raw_pixels(options.output, levels, with_history(metadata, to_metadata(fields.front()->provenance())));
+    write_patterns(options.output, encoded.patterns, with_history(metadata, to_metadata(fields.front()->provenance())));
     resumable.complete();
     session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
                             format_length(modulator.pitch)));
@@ -141,7 +138,8 @@ void add_slm(Command& command, Session& session) {
     command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
     command
         .text("-o,--output", options->output, "FILE",
-              "Pattern to write: .png or .bmp, 8-bit levels without colour management")
+              "Pattern to write, levels without colour management: .png or .bmp of 8 bits; .png of 16 bits for more "
+              "than 256 levels, with the numbers 0 to levels - 1")
         .required()
         .never_acts();
     add_resume_flag(command, options->resume);

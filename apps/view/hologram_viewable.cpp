@@ -199,7 +199,7 @@ LevelCounts HologramViewable::count_levels(const std::string& encoding, const Pr
     options.modulator = {"", std::min(side, plane.width), std::min(side, plane.height), plane.pitch_x, 256};
     const Pattern pattern = encode_pattern(*fields_.front(), options, progress);
     LevelCounts levels{row.name, {}, options.modulator.width, options.modulator.height, pattern.efficiency};
-    for (const std::uint8_t level : pattern.levels.elements()) ++levels.counts[level];
+    for (const std::uint16_t level : pattern.levels.elements()) ++levels.counts[level];
     return levels;
 }
 

@@ -133,6 +133,7 @@ struct ExternalField {
     std::string variable = {};  ///< array to read if the file has several, or two: "re,im"
     bool conjugate = false;     ///< whether the file's time factor is e^{+iωt}
     std::size_t colour = 0;     ///< index of the field, below ExternalFacts::colours
+    std::size_t largest = 0;  ///< number V of the phase code, or of amplitude 1; 0: the largest that the file can hold
 };
 
 /// Facts that a file of another program contains about its fields.
@@ -146,6 +147,7 @@ struct ExternalFacts {
     std::string complaint;              ///< why a pitch or wavelength in the file was rejected
     std::string values;                 ///< "phase" or "amplitude" if a picture says it, see field_entries()
     std::string phase_code;             ///< code of those phases, for parse_phase_code()
+    std::size_t largest = 0;            ///< ExternalField::largest, if a picture says it
 };
 
 /// Reads the facts of a field in a file of another program. Throws Error(bad_input) for a file that is missing or
@@ -167,7 +169,8 @@ HOGEL_API std::shared_ptr<const FieldSource> open_external_field(const std::file
 HOGEL_API bool is_external_field(const std::filesystem::path& path);
 
 /// Returns metadata that describe the field in a picture of numbers, such as one from write_raw_pixels(): pitch,
-/// wavelengths (metres), and whether the numbers are amplitudes or phases, with their code.
+/// wavelengths (metres), whether the numbers are amplitudes or phases, their code, and its largest number unless that
+/// is the largest of 8 bits.
 HOGEL_API Metadata field_entries(const ExternalField& what, std::span<const double> wavelengths);
 
 /// Throws Error(usage) unless the extension is one that write_fields() writes: .npy, .npz, .mat, .exr.

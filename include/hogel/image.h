@@ -99,14 +99,17 @@ struct ImageComparison {
 HOGEL_API ImageComparison compare(const Image& a, const Image& b, double exposure = 1);
 
 /// Writes drive levels of a display or modulator, levels[y][x][c], unchanged and without a transfer curve. The file is
-/// an 8-bit .png or .bmp with one or three channels, or .tif in builds with HOGEL_TIFF. It appears under its name when
-/// it is complete. Throws Error(cannot_write), Error(not_built_in) for .tif in other builds, and Error(usage) for
-/// another extension.
+/// a .png with one or three channels; for levels of 8 bits also .bmp, or .tif in builds with HOGEL_TIFF. It appears
+/// under its name when it is complete. Throws Error(cannot_write), Error(not_built_in) for .tif in other builds, and
+/// Error(usage) for another extension.
 HOGEL_API void write_raw_pixels(const std::filesystem::path& path, View<const std::uint8_t, 3> levels,
+                                const Metadata& metadata = {});
+HOGEL_API void write_raw_pixels(const std::filesystem::path& path, View<const std::uint16_t, 3> levels,
                                 const Metadata& metadata = {});
 
 /// Throws Error(usage) or Error(not_built_in) if write_raw_pixels() would refuse the extension of this name.
-HOGEL_API void require_raw_pixels_name(const std::filesystem::path& path);
+/// @param levels  number of levels: up to 256 have 8 bits, more have 16
+HOGEL_API void require_raw_pixels_name(const std::filesystem::path& path, std::size_t levels = 256);
 
 /// Returns the bytes of an 8-bit sRGB baseline JPEG file without metadata, for display on a screen. Below a quality of
 /// 90 colours have half the resolution. `quality` is libjpeg's, 1 to 100. Throws Error(usage) for another quality or an

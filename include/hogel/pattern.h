@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,7 +36,7 @@ struct Modulator {
 
     friend bool operator==(const Modulator&, const Modulator&) = default;
 };
-inline constexpr unsigned max_modulator_side = 65536, max_modulator_levels = 256;
+inline constexpr unsigned max_modulator_side = 65536, max_modulator_levels = 65536;
 
 /// Returns the modulators by name: those of hogel's profiles, those of *.json in the user's folder, which replace
 /// profiles of the same name, and those that the program adds. The folder is $XDG_CONFIG_HOME/hogel/devices, or
@@ -110,8 +111,10 @@ HOGEL_API std::string describe(const Aperture& aperture, double per_cycle);
 /// The pixel values of a modulator for one wavelength.
 struct Pattern {
     Array<float, 2> values;  ///< [y][x] before rounding to levels: phases in cycles, [0, 1), or amplitudes, [0, 1]
-    /// [y][x]: 0 to 255, rounded to the modulator's levels; phases in PatternOptions::phase_code.
-    Array<std::uint8_t, 2> levels;
+    /// [y][x]: 0 to largest_level, rounded to the modulator's levels; phases in PatternOptions::phase_code.
+    Array<std::uint16_t, 2> levels;
+    /// 255 for modulators of up to 256 levels, which are spread over 0 to 255; otherwise the number of levels less 1.
+    std::uint16_t largest_level = 255;
     double efficiency = 0;  ///< fraction of the modulator's light in the wave F, after rounding to levels
     /// For phase modulators, the fraction of the light on the modulator that reproduces the moduli of the field's local
     /// spectra, in squares of `window` pixels. It suits light fields, with arbitrary phases between directions.
@@ -157,6 +160,11 @@ struct SuitablePatterns {
 /// Encodes several fields by the encoding that suits all, as suitable_encoding() selects it; computes patterns once.
 HOGEL_API SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,
                                            const PatternOptions& options, const Progress& progress = {});
+
+/// Writes the levels of patterns, one or three, as the channels of a picture by write_raw_pixels(): of 8 bits if
+/// largest_level is 255, otherwise of 16. Throws as write_raw_pixels() does.
+HOGEL_API void write_patterns(const std::filesystem::path& path, std::span<const Pattern> patterns,
+                              const Metadata& metadata = {});
 
 /// Returns the complex transmission of a pattern, [y][x]: e^{2πi v} for phases or v for amplitudes, with v the values
 /// rounded to levels. It is the field behind the modulator in a uniform laser beam.

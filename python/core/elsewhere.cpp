@@ -65,7 +65,8 @@ void add_external_fields(py::module_& module) {
         .def_readwrite("zero", &ExternalField::zero)
         .def_readwrite("variable", &ExternalField::variable)
         .def_readwrite("conjugate", &ExternalField::conjugate)
-        .def_readwrite("colour", &ExternalField::colour);
+        .def_readwrite("colour", &ExternalField::colour)
+        .def_readwrite("largest", &ExternalField::largest);
     py::class_<ExternalFacts>(module, "ExternalFacts")
         .def_readonly("format", &ExternalFacts::format)
         .def_readonly("numbers", &ExternalFacts::numbers)
@@ -77,7 +78,8 @@ void add_external_fields(py::module_& module) {
         .def_readonly("wavelengths", &ExternalFacts::wavelengths)
         .def_readonly("complaint", &ExternalFacts::complaint)
         .def_readonly("values", &ExternalFacts::values)
-        .def_readonly("phase_code", &ExternalFacts::phase_code);
+        .def_readonly("phase_code", &ExternalFacts::phase_code)
+        .def_readonly("largest", &ExternalFacts::largest);
     module.def(
         "external_facts",
         [](const std::filesystem::path& path, const ExternalField& description) {

@@ -2,6 +2,8 @@
 // Modulator patterns, and pictures as raw pixel values.
 #include "hogel/pattern.h"
 
+#include <algorithm>
+
 #include "arrays.h"
 #include "core.h"
 #include "hogel/field.h"
@@ -80,17 +82,35 @@ py::tuple numbers_of(Raw&& raw, Values Raw::*values, std::size_t largest) {
     return py::make_tuple(array_of(std::move(raw.*values)), largest);
 }
 
+template <class T>
+void write_pixels(const std::filesystem::path& path, const py::array_t<T, py::array::c_style>& levels,
+                  const py::object& metadata) {
+    const Metadata entries = metadata_of(metadata);
+    const View<const T, 3> view(levels.data(), shape_of<3>(levels, "levels"));
+    run(py::none(), [&](const Progress&) { write_raw_pixels(path, view, entries); });
+}
+
+// Levels as numbers of 8 bits, if these hold them.
+py::object levels_of(const std::shared_ptr<Pattern>& pattern) {
+    const View<const std::uint16_t, 2> levels = pattern->levels;
+    if (pattern->largest_level > 255) return array_over(levels.data(), levels.shape(), py::cast(pattern));
+    Array<std::uint8_t, 2> bytes(levels.shape());
+    std::ranges::transform(levels.elements(), bytes.data(),
+                           [](std::uint16_t level) { return static_cast<std::uint8_t>(level); });
+    return array_of(std::move(bytes));
+}
+
 void add_raw_pixels(py::module_& module) {
     module.def(
         "write_raw_pixels",
-        [](const std::filesystem::path& path, const py::array_t<std::uint8_t, py::array::c_style>& levels,
-           const py::object& metadata) {
-            const Metadata entries = metadata_of(metadata);
-            const View<const std::uint8_t, 3> view(levels.data(), shape_of<3>(levels, "levels"));
-            run(py::none(), [&](const Progress&) { write_raw_pixels(path, view, entries); });
+        [](const std::filesystem::path& path, const py::array& levels, const py::object& metadata) {
+            if (levels.dtype().kind() == 'u' && levels.itemsize() == 2)
+                write_pixels<std::uint16_t>(path, levels, metadata);
+            else
+                write_pixels<std::uint8_t>(path, levels, metadata);
         },
         arg("path"), arg("levels"), arg("metadata"));
-    module.def("require_raw_pixels_name", &require_raw_pixels_name, arg("path"));
+    module.def("require_raw_pixels_name", &require_raw_pixels_name, arg("path"), arg("levels") = 256);
     module.def(
         "read_raw_pixels",
         [](const std::filesystem::path& path) {
@@ -180,10 +200,8 @@ void add_patterns(py::module_& module) {
                                [](const std::shared_ptr<Pattern>& p) {
                                    return array_over(p->values.data(), p->values.shape(), py::cast(p));
                                })
-        .def_property_readonly("levels",
-                               [](const std::shared_ptr<Pattern>& p) {
-                                   return array_over(p->levels.data(), p->levels.shape(), py::cast(p));
-                               })
+        .def_property_readonly("levels", &levels_of)
+        .def_readonly("largest_level", &Pattern::largest_level)
         .def_readonly("efficiency", &Pattern::efficiency)
         .def_readonly("light_field_efficiency", &Pattern::light_field_efficiency)
         .def_readonly("reference_angle", &Pattern::reference_angle)

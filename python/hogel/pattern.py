@@ -15,7 +15,8 @@ from .errors import UsageError
 
 
 class Pattern:
-    """Levels of a modulator's pixels, for one or three wavelengths: `np.asarray(pattern)` is an array [y][x][c] of bytes.
+    """Levels of a modulator's pixels, for one or three wavelengths: `np.asarray(pattern)` is an array
+    [y][x][c] of bytes, or of uint16 for more than 256 levels.
     Created by Hologram.slm().
 
     >>> import hogel, numpy as np
@@ -73,8 +74,8 @@ class Pattern:
         return _core.transmission(self._parts[number], _core.encoding(self.encoding))
 
     def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes the levels as 8-bit .png or .bmp without conversion. A .png stores pitch, wavelength and phase code, so
-        hogel opens it without options.
+        """Writes the levels without conversion: as 8-bit .png or .bmp, or as 16-bit .png for more than 256 levels. A .png stores
+        pitch, wavelength and phase code, so hogel opens it without options.
 
         >>> import hogel, numpy as np, os, tempfile
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")

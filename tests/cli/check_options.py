@@ -30,7 +30,7 @@ TABLE = [
     (f"hologram sphere -o w.h5 {SMALL} --hemicube", "--method=olas --method=phase-added"),
     (f"hologram sphere -o w.h5 {SMALL} --method points", "--resume --cull-back-faces"),
     (f"slm s.h5 -o w.png {MODULATOR} --encoding bipolar", "--reference=-10deg --clip=2 --clip=nan --window=0 --iterations=x"),
-    (f"slm s.h5 -o w.png {MODULATOR}", "--encoding=magic --levels=1 --levels=257 --device=leto"),
+    (f"slm s.h5 -o w.png {MODULATOR}", "--encoding=magic --levels=1 --levels=65537 --device=leto"),
     (f"slm s.h5 -o w.png {MODULATOR} --encoding gerchberg-saxton", "--window=1"),
     ("slm s.h5 -o w.png", "--device=zeus --device=pluto --pixels=8x8 --pixel-pitch=8um"),
     ("slm s.h5 -o w.png --pixels 8x8", "--pixel-pitch=0um --pixel-pitch=5um"),

@@ -50,6 +50,23 @@ INSTANTIATE_TEST_SUITE_P(Formats, RawPixelFiles, testing::ValuesIn(storages()), 
     return test.param.format + "_" + std::to_string(test.param.channels) + "_channels";
 });
 
+TEST(RawPixelFile, of_16_bits_is_a_png_with_the_numbers_that_were_written) {
+    for (const std::size_t channels : {1, 3}) {
+        Array<std::uint16_t, 3> levels({7, 37, channels});
+        for (std::size_t i = 0; i < levels.size(); ++i) levels.data()[i] = static_cast<std::uint16_t>(i * 40961);
+        const auto path = std::filesystem::path(testing::TempDir()) / "deep.png";
+        write_raw_pixels(path, levels);
+        const RawChannels read = read_raw_channels(path);
+        EXPECT_EQ(read.largest, 65535u);
+        EXPECT_TRUE(std::ranges::equal(read.values.elements(), levels.elements()));
+        std::filesystem::remove(path);
+        EXPECT_THROW(write_raw_pixels("deep.bmp", levels), Error);
+    }
+    EXPECT_NO_THROW(require_raw_pixels_name("deep.png", 65536));
+    EXPECT_THROW(require_raw_pixels_name("deep.bmp", 257), Error);
+    EXPECT_NO_THROW(require_raw_pixels_name("flat.bmp", 256));
+}
+
 TEST(RawPixelFile, with_an_unknown_extension_or_in_no_directory_is_refused) {
     const Array<std::uint8_t, 3> levels({2, 2, 1});
     EXPECT_THROW(write_raw_pixels("pattern.exr", levels), Error);

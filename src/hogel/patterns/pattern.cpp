@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -119,25 +118,31 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band
     return cycles;
 }
 
-Array<std::uint8_t, 2> round_to_levels(View<const float, 2> values, unsigned levels, bool phases,
-                                       const PhaseCode& code) {
-    Array<std::uint8_t, 2> rounded(values.shape());
-    for_rows(values.shape(), [&](std::size_t i) {
-        const float value = values.data()[i];
+// Levels of modulators with at most this many are spread over its numbers, as displays of 8 bits expect them.
+constexpr unsigned spread_levels = 256;
+
+unsigned rounded(double value) { return static_cast<unsigned>(std::lround(value)); }
+
+// Sets the levels to the values, rounded to `levels` levels.
+void round_to_levels(Pattern& pattern, unsigned levels, bool phases, const PhaseCode& code) {
+    const bool is_spread = levels < spread_levels;
+    pattern.largest_level = static_cast<std::uint16_t>(std::max(levels, spread_levels) - 1);
+    pattern.levels = Array<std::uint16_t, 2>(pattern.values.shape());
+    for_rows(pattern.values.shape(), [&](std::size_t i) {
+        const float value = pattern.values.data()[i];
+        unsigned level = 0;
         if (phases) {  // phases wrap around from the last level to the first
             double turns = value;
-            if (levels < 256) {
-                const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels))) % levels;
-                const unsigned level_of_256 = level * 256 / levels;
-                turns = level_of_256 / 256.0;
-            }
-            rounded.data()[i] = static_cast<std::uint8_t>(code.level(2 * std::numbers::pi * turns, 255));
+            if (is_spread)
+                turns = rounded(value * static_cast<float>(levels)) % levels * spread_levels / levels /
+                        static_cast<double>(spread_levels);
+            level = code.level(2 * std::numbers::pi * turns, pattern.largest_level);
         } else {
-            const auto level = static_cast<unsigned>(std::lround(value * static_cast<float>(levels - 1)));
-            rounded.data()[i] = static_cast<std::uint8_t>(std::lround(level * 255.0 / (levels - 1)));
+            level = rounded(value * static_cast<float>(levels - 1));
+            if (is_spread) level = rounded(level * 255.0 / (levels - 1));
         }
+        pattern.levels.data()[i] = static_cast<std::uint16_t>(level);
     });
-    return rounded;
 }
 
 // Share of the modulator's light in F times the carrier: |<E, F c>|² / (<F, F> pixels).
@@ -251,7 +256,7 @@ Pattern encode_pattern(const FieldSource& source, const PatternOptions& options,
     const FieldBand band(field);
     pattern.values = phases ? encode_phase(field, band, options, convergence, progress)
                             : encode_amplitude(field, options, source.grid().wavelength, order);
-    pattern.levels = round_to_levels(pattern.values, options.modulator.levels, phases, options.phase_code);
+    round_to_levels(pattern, options.modulator.levels, phases, options.phase_code);
     const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
     pattern.efficiency = efficiency_of(transmitted, field, order.carrier);
     pattern.power = unit * unit * mean_power(field) / pattern.efficiency;
@@ -275,11 +280,12 @@ Encoding suitable_encoding(const FieldSource& source, const PatternOptions& opti
 
 Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {
     Array<Complex, 2> result(pattern.levels.shape());
-    std::array<Complex, 256> by_level;
+    const double largest = pattern.largest_level;
+    std::vector<Complex> by_level(std::size_t{pattern.largest_level} + 1);
     for (std::size_t level = 0; level < by_level.size(); ++level)
         by_level[level] = is_phase_only(encoding)
-                              ? Complex(std::polar(1.0, phase_code.phase(static_cast<double>(level), 255)))
-                              : Complex(static_cast<float>(static_cast<double>(level) / 255));
+                              ? Complex(std::polar(1.0, phase_code.phase(static_cast<double>(level), largest)))
+                              : Complex(static_cast<float>(static_cast<double>(level) / largest));
     for_rows(result.shape(), [&](std::size_t i) { result.data()[i] = by_level[pattern.levels.data()[i]]; });
     return result;
 }

@@ -400,6 +400,37 @@ void expect_usage(const Field& field, const PatternOptions& options, const std::
     }
 }
 
+// Half a step of the modulator is the largest error of a phase, for few and for many levels and in every code.
+TEST(Pattern, of_any_number_of_levels_shows_the_phase_within_half_a_level) {
+    const Field field = plane_wave();
+    for (const unsigned levels : {2u, 16u, 256u, 257u, 1024u, 65536u})
+        for (const PhaseCodeInfo& row : phase_codes().rows()) {
+            PatternOptions options = options_for(Encoding::phase);
+            options.modulator.levels = levels;
+            options.phase_code = row.code;
+            const Pattern pattern = encode_pattern(field, options);
+            EXPECT_EQ(pattern.largest_level, std::max(levels, 256u) - 1);
+            EXPECT_LE(*std::ranges::max_element(pattern.levels.elements()), pattern.largest_level);
+            const Array<Complex, 2> shown = transmission(pattern, options.encoding, row.code);
+            // A closed code spreads its levels over one step more; both roundings of few levels add up.
+            const double step = 1.0 / std::min(levels, pattern.largest_level + 0u) + (levels < 256 ? 1.0 / 255 : 0);
+            for (std::size_t i = 0; i < shown.size(); ++i) {
+                const double wanted = pattern.values.data()[i];
+                const double got = std::arg(shown.data()[i]) / (2 * std::numbers::pi);
+                ASSERT_LT(std::abs(std::remainder(got - wanted, 1.0)), 0.5 * step + 1e-6) << levels << row.name;
+            }
+        }
+}
+
+TEST(Pattern, of_amplitudes_with_many_levels_rounds_to_the_nearest) {
+    PatternOptions options = options_for(Encoding::bipolar);
+    options.modulator.levels = 1024;
+    const Pattern pattern = encode_pattern(speckle(0.2), options);
+    EXPECT_EQ(pattern.largest_level, 1023);
+    for (std::size_t i = 0; i < pattern.levels.size(); ++i)
+        ASSERT_LE(std::abs(pattern.levels.data()[i] - 1023.0 * pattern.values.data()[i]), 0.501);
+}
+
 TEST(Pattern, names_an_angle_or_pitch_that_would_do_where_it_refuses_one) {
     PatternOptions options = options_for(Encoding::bipolar);
     options.reference_angle = 0.2_deg;

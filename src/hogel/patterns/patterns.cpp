@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "hogel/core/stop_scope.h"
+#include "hogel/error.h"
+#include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/patterns/pattern_parts.h"
 #include "hogel/work/ordered_reduce.h"
@@ -8,6 +12,7 @@ namespace hogel {
 namespace {
 
 void put_numbers(work::MessageWriter& message, const Pattern& pattern) {
+    message.put(pattern.largest_level);
     message.put(pattern.efficiency);
     message.put(pattern.light_field_efficiency);
     message.put(pattern.reference_angle);
@@ -18,6 +23,7 @@ void put_numbers(work::MessageWriter& message, const Pattern& pattern) {
 }
 
 void get_numbers(work::MessageReader& message, Pattern& pattern) {
+    pattern.largest_level = message.get<std::uint16_t>();
     pattern.efficiency = message.get<double>();
     pattern.light_field_efficiency = message.get<double>();
     pattern.reference_angle = message.get<double>();
@@ -36,7 +42,7 @@ void put(work::MessageWriter& message, const Pattern& pattern) {
 Pattern get(work::MessageReader& message) {
     Pattern pattern;
     pattern.values = message.get_array<float, 2>();
-    pattern.levels = message.get_array<std::uint8_t, 2>();
+    pattern.levels = message.get_array<std::uint16_t, 2>();
     get_numbers(message, pattern);
     return pattern;
 }
@@ -53,6 +59,32 @@ std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const Field
         [&](std::size_t i, Pattern& pattern) { patterns[i] = std::move(pattern); });
     for (Pattern& pattern : patterns) work::broadcast_result<Pattern>(pattern, {put, get});
     return patterns;
+}
+
+namespace {
+
+template <class T>
+Array<T, 3> channels_of(std::span<const Pattern> patterns) {
+    const Shape<2>& shape = patterns[0].levels.shape();
+    Array<T, 3> levels({shape[0], shape[1], patterns.size()});
+    for (std::size_t c = 0; c < patterns.size(); ++c)
+        for (std::size_t i = 0; i < patterns[c].levels.size(); ++i)
+            levels.data()[i * patterns.size() + c] = static_cast<T>(patterns[c].levels.data()[i]);
+    return levels;
+}
+
+}  // namespace
+
+void write_patterns(const std::filesystem::path& path, std::span<const Pattern> patterns, const Metadata& metadata) {
+    if (patterns.empty() || std::ranges::any_of(patterns, [&](const Pattern& pattern) {
+            return pattern.levels.shape() != patterns[0].levels.shape() ||
+                   pattern.largest_level != patterns[0].largest_level;
+        }))
+        throw Error(ErrorCode::usage, "patterns of one modulator are needed");
+    if (patterns[0].largest_level > 255)
+        write_raw_pixels(path, channels_of<std::uint16_t>(patterns), metadata);
+    else
+        write_raw_pixels(path, channels_of<std::uint8_t>(patterns), metadata);
 }
 
 SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,

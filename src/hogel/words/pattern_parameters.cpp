@@ -96,7 +96,7 @@ void declare_modulator(Parameters& parameters, PatternParameters& asked) {
         .no_default()
         .excludes(device)
         .acts_if(is_described);
-    parameters.count("--levels", asked.levels, "Another modulator: levels of a pixel")
+    parameters.count("--levels", asked.levels, "Another modulator: levels of a pixel, up to 65536")
         .excludes(device)
         .acts_if([&asked] { return asked.device.empty() && !is_one_of(asked.encoding, {Encoding::binary}); });
     std::string codes = "Encoding of phases as levels, as other programs use it:";
@@ -170,6 +170,7 @@ Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fiel
     ExternalField external{.pitch_x = device_used.pitch, .pitch_y = device_used.pitch};
     external.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
     external.phase_code = parse_phase_code(code());
+    external.largest = encoded.patterns[0].largest_level;
     for (auto& field_entry : field_entries(external, wavelengths)) entries.push_back(std::move(field_entry));
     return entries;
 }

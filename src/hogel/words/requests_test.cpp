@@ -119,7 +119,7 @@ TEST(PatternParameters, describe_one_modulator) {
     EXPECT_EQ(of({{"device", "leto"}, {"pixels", "8"}}), "device, pixels, pixel_pitch");
     EXPECT_EQ(of({{"pixels", "8"}}), "pixels, pixel_pitch");
     EXPECT_EQ(of({{"pixels", "65537x1"}, {"pixel-pitch", "8um"}}), "pixels");
-    EXPECT_EQ(of({{"pixels", "8"}, {"pixel-pitch", "8um"}, {"levels", "257"}}), "levels");
+    EXPECT_EQ(of({{"pixels", "8"}, {"pixel-pitch", "8um"}, {"levels", "65537"}}), "levels");
     EXPECT_EQ(of({{"device", "zeus"}}), "device");
 }
 

@@ -17,7 +17,7 @@ using namespace io::arrays;
 namespace {
 
 constexpr const char *pitch_x_key = "pitch_x_m", *pitch_y_key = "pitch_y_m", *values_key = "values",
-                     *phase_code_key = "phase_code";
+                     *phase_code_key = "phase_code", *largest_key = "largest_level";
 
 std::string wavelength_key(std::size_t field) { return fmt::format("field{}_wavelength_m", field); }
 
@@ -47,6 +47,7 @@ Metadata field_entries(const ExternalField& description, std::span<const double>
         entries.emplace_back(values_key, phases ? "phase" : "amplitude");
     if (phases && description.phase_code)
         entries.emplace_back(phase_code_key, phase_code_text(*description.phase_code));
+    if (description.largest > 255) entries.emplace_back(largest_key, fmt::format("{}", description.largest));
     return entries;
 }
 
@@ -60,6 +61,8 @@ void io::arrays::take_entries(const Metadata& entries, ExternalFacts& facts) {
     const std::string* const values = find_text(entries, values_key);
     if (values == nullptr || (*values != "phase" && *values != "amplitude")) return;
     facts.values = *values;
+    if (const double largest = positive_number(entries, largest_key); largest >= 1 && largest <= 65535)
+        facts.largest = static_cast<std::size_t>(largest);
     const std::string* const code = find_text(entries, phase_code_key);
     if (code == nullptr || *values != "phase") return;
     try {

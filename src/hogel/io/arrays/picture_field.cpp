@@ -59,6 +59,11 @@ ExternalField completed(ExternalField description, const ExternalFacts& facts) {
     return description;
 }
 
+// Returns the number that stands for the full range of phases or for amplitude 1; 0: none, as the numbers have a point.
+std::size_t largest_of(const RawChannels& picture, std::size_t largest) {
+    return picture.largest > 0 && largest > 0 ? std::min(picture.largest, largest) : picture.largest;
+}
+
 // Reads the facts in the texts of the pictures. The second picture of a pair states the code of its phases.
 void take_texts(const std::filesystem::path& path, const ExternalField& description, ExternalFacts& facts) {
     take_entries(read_metadata(path), facts);
@@ -86,6 +91,7 @@ ExternalFacts picture_facts(const std::filesystem::path& path, const ExternalFie
     // A grey part may belong to three-colour parts.
     if (!second.empty()) facts.colours = std::max(facts.colours, facts_of(read_raw_channels(second)).colours);
     take_texts(path, description, facts);
+    if (facts.largest > 0) facts.numbers = fmt::format("whole numbers up to {}", facts.largest);
     return facts;
 }
 
@@ -108,7 +114,9 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     take_texts(path, description, facts);
     const ExternalField resolved = completed(description, facts);
     SampleConverter convert(path, resolved, content, number_of(first), number_of(second));
-    convert.set_largest_phase(two ? second.largest : first.largest);
+    const std::size_t said = two ? 0 : description.largest > 0 ? description.largest : facts.largest;
+    const std::size_t largest = largest_of(two ? second : first, said);
+    convert.set_largest_phase(largest);
     auto field = std::make_unique<Field>(external_grid(path, description, facts));
     const std::size_t channels[2] = {first.values.extent(2), second.values.extent(2)};
     const std::size_t colour[2] = {channels[0] == 1 ? 0 : description.colour,
@@ -117,9 +125,9 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
         convert.set_zero(zero_of(first, colour[0], description), zero_of(second, colour[1], description));
     // A pattern holds scaled amplitudes: its largest level is amplitude 1 of the illumination.
     const double power = two ? 0 : power_of_pattern(read_metadata(path), field->grid().wavelength);
-    const bool levels = resolved.values == ExternalField::Values::amplitude && first.largest > 0;
+    const bool levels = resolved.values == ExternalField::Values::amplitude && largest > 0;
     const auto scale =
-        static_cast<float>(power > 0 ? std::sqrt(power) / (levels ? static_cast<double>(first.largest) : 1) : 1);
+        static_cast<float>(power > 0 ? std::sqrt(power) / (levels ? static_cast<double>(largest) : 1) : 1);
     for (std::size_t i = 0; i < field->samples.size(); ++i)
         field->samples.data()[i] = scale * convert(double{first.values.data()[i * channels[0] + colour[0]]},
                                                    two ? double{second.values.data()[i * channels[1] + colour[1]]} : 0);
