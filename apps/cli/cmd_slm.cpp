@@ -14,6 +14,7 @@
 #include "hogel/requests.h"
 #include "hogel/units.h"
 #include "inputs.h"
+#include "movie.h"
 #include "outputs.h"
 
 namespace hogel::cli {
@@ -25,15 +26,26 @@ constexpr double poor_correlation = 0.9;
 struct Options {
     std::string input, output;
     PatternParameters pattern;
+    LightFieldParameters render;
+    HologramParameters hologram;
     FieldParameters field;
     bool resume = false;
 };
+
+// Fields and their patterns.
+struct Encoded {
+    Fields fields;
+    SuitablePatterns patterns;
+};
+
+// Returns whether a pattern has measures that compare its phases with a field.
+bool compares_with_field(Encoding encoding) { return is_phase_only(encoding) && encoding != Encoding::supervised; }
 
 // Returns the efficiency and the aperture of a pattern.
 // @param per_cycle  wavelength over pixel pitch
 Result result_of(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding) {
     Result result{{"wavelength_m", wavelength}, {"efficiency", pattern.efficiency}, {"power", pattern.power}};
-    if (is_phase_only(encoding)) {
+    if (compares_with_field(encoding)) {
         result.emplace_back("light_field_efficiency", pattern.light_field_efficiency);
         result.emplace_back("correlation", pattern.correlation);
     }
@@ -53,7 +65,7 @@ double max_field_of_view(double per_cycle) { return 2 * std::asin(std::min(1.0, 
 
 void report(const Pattern& pattern, double wavelength, double per_cycle, Encoding encoding, const Session& session) {
     const std::string name = format_length(wavelength);
-    const bool phases = is_phase_only(encoding);
+    const bool phases = compares_with_field(encoding);
     std::string line = fmt::format("{}: efficiency {:.2f} %", name, 100 * pattern.efficiency);
     if (phases)
         line += fmt::format(", of its light field {:.2f} %, correlation {:.4f}", 100 * pattern.light_field_efficiency,
@@ -75,27 +87,97 @@ void report(const Pattern& pattern, double wavelength, double per_cycle, Encodin
 
 // Returns the ratio of the illumination powers that reproduce the colours of the hologram, relative to the second
 // wavelength.
-std::string powers_of(const std::vector<Pattern>& patterns) {
+std::string powers_of(std::span<const Pattern> patterns) {
     std::vector<std::string> ratio;
     for (const Pattern& pattern : patterns) ratio.push_back(fmt::format("{:.3g}", pattern.power / patterns[1].power));
     return fmt::format("illumination powers that reproduce the colours of the hologram: {}", fmt::join(ratio, " : "));
 }
 
+void report(const PupilQuality& quality, double wavelength, const Session& session) {
+    session.say(
+        fmt::format("{}: photographs through pupils, against those by rays: PSNR {:.2f} dB ({:.2f} in the "
+                    "middle, {:.2f} outside), SSIM {:.3f}, speckle contrast {:.2f}",
+                    format_length(wavelength), quality.psnr, quality.psnr_middle, quality.psnr_outside, quality.ssim,
+                    quality.contrast));
+}
+
+Result result_of(const PupilQuality& quality) {
+    return {{"psnr_db", quality.psnr},
+            {"lowest_psnr_db", quality.lowest_psnr},
+            {"psnr_middle_db", quality.psnr_middle},
+            {"psnr_outside_db", quality.psnr_outside},
+            {"ssim", quality.ssim},
+            {"speckle_contrast", quality.contrast},
+            {"efficiency", quality.efficiency}};
+}
+
+void require_colours(const Fields& fields, const std::string& input) {
+    if (fields.size() != 1 && fields.size() != 3)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("{}: has {} wavelengths; a pattern takes one or three", input, fields.size()));
+}
+
+Encoded encode_hologram(Options& options, const Session& session) {
+    if (options.pattern.encoding == "supervised")
+        throw Error(ErrorCode::usage, "encoding",
+                    fmt::format("supervised needs a light field or a scene, but {} is a hologram; give slm the light "
+                                "field or scene itself, or use gradient",
+                                options.input));
+    options.field.pitch = options.hologram.pitch_given ? options.hologram.pitch : 0;
+    options.field.wavelengths = options.hologram.wavelengths;
+    Encoded encoded{open_and_reconstruct(session, options.input, options.field), {}};
+    options.hologram.resolve(options.field);
+    require_colours(encoded.fields, options.input);
+    Stage stage(session, "pattern");
+    encoded.patterns = options.pattern.encode(encoded.fields, stage.progress());
+    return encoded;
+}
+
+// Makes holograms with samples of the modulator's pitch, and encodes them.
+Encoded encode_light_field(Options& options, InputKind kind, const Session& session) {
+    options.hologram.pitch = options.pattern.modulator().pitch;
+    options.hologram.pitch_given = true;
+    LightField light_field = with_common_directions(open_or_render(session, options.input, options.render));
+    const HologramRequest request =
+        options.hologram.request(light_field.grids(), session.seed, options.pattern.looks());
+    check_holograms(light_field.grids(), request, kind == InputKind::scene);
+    light_field = prepare_for_reading(session, light_field, 2 * request.channels.size(), true);
+    if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
+    options.hologram.resolve(request, light_field.grid());
+    Encoded encoded{make_holograms(light_field, request), {}};
+    require_colours(encoded.fields, options.input);
+    Stage stage(session, "pattern");
+    encoded.patterns = options.pattern.encode(encoded.fields, light_field, request, stage.progress());
+    return encoded;
+}
+
+// Writes the patterns, one file for each that is shown in turn.
+void write_files(const Options& options, const SuitablePatterns& patterns, std::size_t colours,
+                 const Metadata& metadata) {
+    const std::span<const Pattern> all = patterns.patterns;
+    const std::size_t frames = all.size() / colours;
+    for (std::size_t frame = 0; frame < frames; ++frame)
+        write_patterns(frames == 1 ? std::filesystem::path(options.output) : numbered(options.output, frame),
+                       all.subspan(frame * colours, colours), metadata);
+}
+
 int slm(Options& options, const Session& session) {
     const Modulator modulator = options.pattern.options().modulator;
     require_raw_pixels_name(options.output, modulator.levels);
+    const std::size_t frames = options.pattern.looks();
+    if (frames > 1 && !is_numbered(options.output))
+        throw Error(ErrorCode::usage, "output",
+                    fmt::format("{}: expected name####.png for {} patterns", options.output, frames));
     require_writable(options.output, {&options.input, 1});
     ResumableOutput resumable(session, options.resume, options.output,
                               options.resume ? describe_input(options.input) : "");
-    const Fields fields = open_and_reconstruct(session, options.input, options.field);
-    const std::size_t colours = fields.size();
-    if (colours != 1 && colours != 3)
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, colours));
-
-    Stage stage(session, "pattern");
-    const SuitablePatterns encoded = options.pattern.encode(fields, stage.progress());
+    const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
     const bool is_automatic = options.pattern.encoding == "auto";
+    const Encoded made =
+        kind == InputKind::hologram ? encode_hologram(options, session) : encode_light_field(options, kind, session);
+    const Fields& fields = made.fields;
+    const SuitablePatterns& encoded = made.patterns;
+    const std::size_t colours = fields.size();
     options.pattern.resolve(encoded.encoding);
     const std::string& encoding = options.pattern.encoding;
     if (is_automatic) session.detail(fmt::format("encoding {} suits the field", encoding));
@@ -107,14 +189,20 @@ int slm(Options& options, const Session& session) {
         const Pattern& pattern = encoded.patterns[c];
         const double wavelength = fields[c]->grid().wavelength, per_cycle = wavelength / modulator.pitch;
         report(pattern, wavelength, per_cycle, encoded.encoding, session);
-        patterns.push_back(result_of(pattern, wavelength, per_cycle, encoded.encoding));
+        Result result = result_of(pattern, wavelength, per_cycle, encoded.encoding);
+        if (!encoded.quality.empty()) {
+            report(encoded.quality[c], wavelength, session);
+            result.emplace_back("photographs", result_of(encoded.quality[c]));
+        }
+        patterns.push_back(std::move(result));
     }
-    if (colours == 3) session.say(powers_of(encoded.patterns));
+    if (colours == 3) session.say(powers_of(std::span(encoded.patterns).first(colours)));
     if (!is_root_rank()) return 0;
-    write_patterns(options.output, encoded.patterns, with_history(metadata, to_metadata(fields.front()->provenance())));
+    write_files(options, encoded, colours, with_history(metadata, to_metadata(fields.front()->provenance())));
     resumable.complete();
-    session.say(fmt::format("{}: {}x{} pixels of {}", options.output, modulator.width, modulator.height,
-                            format_length(modulator.pitch)));
+    session.say(fmt::format("{}: {}{}x{} pixels of {}", options.output,
+                            frames == 1 ? "" : fmt::format("{} patterns of ", frames), modulator.width,
+                            modulator.height, format_length(modulator.pitch)));
     report_file(session, options.output,
                 {{"width", modulator.width},
                  {"height", modulator.height},
@@ -132,10 +220,12 @@ void add_slm(Command& command, Session& session) {
     command.examples(
         "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um \\\n"
         "    --fov 2.5deg --wavelength 532nm\n"
-        "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase");
+        "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase\n"
+        "  hogel slm lf.h5 -o turn####.png --device pluto --wavelength 532nm --encoding supervised --frames 8");
     command.basics({"device", "pixels", "pixel-pitch", "levels", "encoding", "reference", "window", "phase-code",
                     "pitch", "wavelength"});
-    command.positional("input", options->input, "F.h5|F.npy|P.png", "Hologram, or another program's field");
+    command.positional("input", options->input, "F.h5|X.h5|SCENE",
+                       "Hologram, light field, mesh file, built-in scene, or another program's field");
     command
         .text("-o,--output", options->output, "FILE",
               "Pattern to write, levels without colour management: .png or .bmp of 8 bits; .png of 16 bits for more "
@@ -144,8 +234,10 @@ void add_slm(Command& command, Session& session) {
         .never_acts();
     add_resume_flag(command, options->resume);
     options->pattern.declare(command);
+    options->hologram.declare(command);
+    options->render.declare(command);
     options->field.code_option = "--input-phase-code";
-    options->field.declare(command);
+    options->field.declare(command, false);
     options->field.declare_reconstruction(command);
     command.add_like_option();
     command.work([options, &session] { return slm(*options, session); });

@@ -19,13 +19,6 @@ namespace hogel::cli {
 namespace fs = std::filesystem;
 namespace {
 
-std::string numbered(const fs::path& path, std::size_t frame) {
-    std::string name = path.filename().string();
-    const std::size_t first = name.find('#'), end = name.find_first_not_of('#', first);
-    name.replace(first, end - first, fmt::format("{:0{}}", frame, end - first));
-    return (path.parent_path() / name).string();
-}
-
 // Returns the id of the process that created a temporary folder of frames, or 0 for other names.
 pid_t owner_pid(const std::string& name, const std::string& prefix) {
     int pid = 0, parsed = 0;
@@ -67,8 +60,6 @@ std::uintmax_t move_frame(const FrameFolder& folder, const fs::path& frame) {
     return fs::file_size(name);
 }
 
-bool is_numbered(const fs::path& path) { return path.filename().string().find('#') != std::string::npos; }
-
 }  // namespace
 
 FrameFolder::FrameFolder(const fs::path& file) {
@@ -86,6 +77,15 @@ FrameFolder::~FrameFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
     if (lock_ >= 0) ::close(lock_);
+}
+
+bool is_numbered(const fs::path& path) { return path.filename().string().find('#') != std::string::npos; }
+
+fs::path numbered(const fs::path& path, std::size_t frame) {
+    std::string name = path.filename().string();
+    const std::size_t first = name.find('#'), end = name.find_first_not_of('#', first);
+    name.replace(first, end - first, fmt::format("{:0{}}", frame, end - first));
+    return path.parent_path() / name;
 }
 
 bool is_movie(const fs::path& path) { return is_numbered(path) || is_film(path); }

@@ -30,6 +30,12 @@ class FrameFolder {
 /// Returns whether a name stands for several pictures: name####.png, numbered from 0, or a film.
 bool is_movie(const std::filesystem::path& path);
 
+/// Returns whether a name has the # of name####.png.
+bool is_numbered(const std::filesystem::path& path);
+
+/// Returns name0007.png for name####.png and frame 7.
+std::filesystem::path numbered(const std::filesystem::path& path, std::size_t frame);
+
 /// Throws Error(usage) unless is_movie(), Error(not_built_in) for a film if ffmpeg is not installed.
 void require_movie(const std::filesystem::path& path);
 

@@ -10,6 +10,7 @@
 
 #include "hogel/export.h"
 #include "hogel/field.h"
+#include "hogel/light_field.h"
 #include "hogel/phase_code.h"
 #include "hogel/progress.h"
 #include "hogel/table.h"
@@ -60,6 +61,7 @@ enum class Encoding {
     double_phase,      ///< phases φ ± acos|F| on a checkerboard, which represent the modulus (Hsueh and Sawchuk 1978)
     gerchberg_saxton,  ///< phase by alternating projections between the modulator and the local spectra of F
     gradient,    ///< phase by gradient descent towards F within its frequency band; light outside the band is free
+    supervised,  ///< phase by descent of the error of photographs of a light field: encode_supervised()
     intensity,   ///< amplitude |F + R|², with a plane reference wave R
     bipolar,     ///< amplitude 2 Re(F R*), plus a constant that makes it positive
     burckhardt,  ///< amplitude of three real components, 120° apart, in successive columns (Burckhardt 1970)
@@ -78,8 +80,8 @@ struct EncodingInfo {
     bool phase_only = false;  ///< for phase modulators; otherwise for amplitude modulators
 };
 
-/// Returns all encodings by name: phase, double-phase, gerchberg-saxton, gradient, intensity, bipolar, burckhardt, lee,
-/// binary.
+/// Returns all encodings by name: phase, double-phase, gerchberg-saxton, gradient, supervised, intensity, bipolar,
+/// burckhardt, lee, binary.
 HOGEL_API Table<EncodingInfo>& encodings();
 
 /// Options of encode_pattern().
@@ -92,7 +94,8 @@ struct PatternOptions {
     double clip = 0.001;  ///< fraction of the samples with a modulus that is clipped
     /// Side of the squares of the local spectra, pixels; the side of a hogel suits best.
     std::size_t window = 32;
-    /// Iterations of gerchberg_saxton (0: 40), or their largest number for gradient (0: 200), which stops by itself.
+    /// Iterations of gerchberg_saxton (0: 40) and supervised (0: 300), or their largest number for gradient (0: 200),
+    /// which stops by itself.
     std::size_t iterations = 0;
     PhaseCode phase_code = {};  ///< mapping between levels and phases
 };
@@ -151,10 +154,53 @@ HOGEL_API Pattern encode_pattern(const FieldSource& field, const PatternOptions&
 HOGEL_API std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const FieldSource>> fields,
                                                const PatternOptions& options, const Progress& progress = {});
 
+/// Quality of the photographs of patterns through random pupils, by waves, against those of their light field by rays.
+/// Each pupil has a diameter of 1/6 to 3/8 of the light field's directions, and a random place and focus. Patterns are
+/// shown in turn, so their intensities add up. One brightness factor serves all pupils.
+struct PupilQuality {
+    double psnr = 0;  ///< mean over pupils, decibels: of amplitudes, with the largest one of each photograph as peak
+    double lowest_psnr = 0;   ///< of all pupils
+    double psnr_middle = 0;   ///< mean over the pupils nearer to the middle than a third of the directions' half width
+    double psnr_outside = 0;  ///< mean over the others
+    double ssim = 0;          ///< mean structural similarity of amplitudes, in windows of 8x8 samples
+    double contrast = 0;      ///< speckle contrast, σ/mean of intensities where the photograph by rays is flattest
+    double efficiency = 0;    ///< share of the modulator's light in the light field's directions
+    double power = 0;         ///< as Pattern::power: shows the radiance of the light field
+};
+
+/// Phase patterns of a light field for one wavelength, shown in turn.
+struct SupervisedPatterns {
+    std::vector<Pattern> frames;
+    PupilQuality quality;
+};
+
+/// Computes the phase patterns of a light field whose photographs through pupils are nearest to those by rays: descent
+/// of the error of random pupils, on the phases that the modulator can show. Pattern::efficiency and Pattern::power are
+/// those of the quality, the aperture surrounds the light field's directions, and the measures that compare a pattern
+/// with a field are 0. Memory: arrays of the modulator's size for
+/// each look, and one channel of the light field. Ranks (communicator.h) encode one field each at a time; all return
+/// all patterns. Throws Error(usage) as encode_pattern() does, for directions that the modulator does not show, and for
+/// fewer than 3x3 directions.
+/// @param fields       holograms of the light field, where the descent starts, one per wavelength; one pattern is made
+///                     of each look, so looks should have independent phases
+/// @param light_field  its depth gives the range of focus
+/// @param channels     channel of the light field of each field
+HOGEL_API std::vector<SupervisedPatterns> encode_supervised(std::span<const std::shared_ptr<const FieldSource>> fields,
+                                                            const LightFieldSource& light_field,
+                                                            std::span<const std::size_t> channels,
+                                                            const PatternOptions& options,
+                                                            const Progress& progress = {});
+
+/// Measures phase patterns, shown in turn, through 50 random pupils, none of which encode_supervised() uses.
+HOGEL_API PupilQuality pupil_quality(std::span<const Pattern> patterns, const LightFieldSource& light_field,
+                                     std::size_t channel, double wavelength, const PatternOptions& options,
+                                     const Progress& progress = {});
+
 /// The patterns of several fields by the encoding that suits all of them.
 struct SuitablePatterns {
     Encoding encoding = Encoding::phase;
-    std::vector<Pattern> patterns;
+    std::vector<Pattern> patterns;           ///< one per field; of patterns shown in turn, [frame][field]
+    std::vector<PupilQuality> quality = {};  ///< for `supervised`, one per field
 };
 
 /// Encodes several fields by the encoding that suits all, as suitable_encoding() selects it; computes patterns once.

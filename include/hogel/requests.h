@@ -190,6 +190,7 @@ struct HOGEL_API PatternParameters {
     double pixel_pitch = 0;         ///< metres
     std::size_t levels = 256;       ///< per pixel
     std::string phase_code;         ///< for parse_phase_code(); empty: that of the device, or hogel
+    std::size_t frames = 1;         ///< patterns shown in turn, for the encoding supervised
 
     /// Returns the named or described modulator. Throws Error(usage), and as find_modulator() does.
     Modulator modulator() const;
@@ -201,6 +202,12 @@ struct HOGEL_API PatternParameters {
     PatternOptions options() const;
     /// Encodes the field of each wavelength. Throws as options() and encode_pattern() do.
     SuitablePatterns encode(const Fields& fields, const Progress& progress = {}) const;
+    /// Returns the number of looks that encode() needs: one for each of the patterns that are shown in turn.
+    std::size_t looks() const;
+    /// Encodes holograms of a light field with looks() looks; supervised needs the light field. Throws as options(),
+    /// encode_pattern() and encode_supervised() do.
+    SuitablePatterns encode(const Fields& holograms, const LightField& light_field, const HologramRequest& request,
+                            const Progress& progress = {}) const;
     /// Stores the selected encoding, the device's name as modulators() spells it, and the phase code that is used.
     void resolve(Encoding chosen);
     /// Returns metadata of a pattern file: results of each wavelength, such as "efficiency at 532 nm", and

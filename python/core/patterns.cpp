@@ -40,6 +40,7 @@ void add_encodings(py::module_& module) {
         .value("double_phase", Encoding::double_phase)
         .value("gerchberg_saxton", Encoding::gerchberg_saxton)
         .value("gradient", Encoding::gradient)
+        .value("supervised", Encoding::supervised)
         .value("intensity", Encoding::intensity)
         .value("bipolar", Encoding::bipolar)
         .value("burckhardt", Encoding::burckhardt)
@@ -133,11 +134,13 @@ void add_pattern_keywords(py::module_& module) {
     using Asked = Keywords<PatternParameters>;
     py::class_<SuitablePatterns, std::shared_ptr<SuitablePatterns>>(module, "SuitablePatterns")
         .def_readonly("encoding", &SuitablePatterns::encoding)
-        .def_property_readonly("patterns", [](const std::shared_ptr<SuitablePatterns>& encoded) {
-            std::vector<std::shared_ptr<Pattern>> patterns;
-            for (Pattern& pattern : encoded->patterns) patterns.emplace_back(encoded, &pattern);
-            return patterns;
-        });
+        .def_property_readonly("patterns",
+                               [](const std::shared_ptr<SuitablePatterns>& encoded) {
+                                   std::vector<std::shared_ptr<Pattern>> patterns;
+                                   for (Pattern& pattern : encoded->patterns) patterns.emplace_back(encoded, &pattern);
+                                   return patterns;
+                               })
+        .def_readonly("quality", &SuitablePatterns::quality);
     module.def("pattern_keywords", [] { return described(Asked().table); });
     module.def(
         "pattern_options", [](const py::dict& keywords) { return Asked(keywords).values.options(); }, arg("keywords"));
@@ -150,6 +153,17 @@ void add_pattern_keywords(py::module_& module) {
             });
         },
         arg("keywords"), arg("fields"), arg("report"));
+    module.def(
+        "encode_light_field",
+        [](const py::dict& keywords, const LightField& light_field, HologramRequest request, const py::object& report) {
+            const Asked asked(keywords);
+            request.looks = asked.values.looks();
+            return run_for(report, [&](const Progress& p) {
+                return std::make_shared<SuitablePatterns>(
+                    asked.values.encode(make_holograms(light_field, request), light_field, request, p));
+            });
+        },
+        arg("keywords"), arg("light_field"), arg("request"), arg("report"));
     module.def(
         "pattern_record",
         [](const py::dict& keywords, Encoding chosen) {
@@ -194,6 +208,15 @@ void add_patterns(py::module_& module) {
         .def_readonly("x", &Aperture::x)
         .def_readonly("y", &Aperture::y)
         .def_readonly("radius", &Aperture::radius);
+    py::class_<PupilQuality>(module, "PupilQuality")
+        .def_readonly("psnr", &PupilQuality::psnr)
+        .def_readonly("lowest_psnr", &PupilQuality::lowest_psnr)
+        .def_readonly("psnr_middle", &PupilQuality::psnr_middle)
+        .def_readonly("psnr_outside", &PupilQuality::psnr_outside)
+        .def_readonly("ssim", &PupilQuality::ssim)
+        .def_readonly("contrast", &PupilQuality::contrast)
+        .def_readonly("efficiency", &PupilQuality::efficiency)
+        .def_readonly("power", &PupilQuality::power);
     module.def("describe", py::overload_cast<const Aperture&, double>(&describe), arg("aperture"), arg("per_cycle"));
     py::class_<Pattern, std::shared_ptr<Pattern>>(module, "Pattern")
         .def_property_readonly("values",

@@ -96,10 +96,14 @@ std::vector<std::pair<std::string, std::vector<std::string>>> command_parameters
                           .of<LightFieldParameters>(declare_light_field)
                           .of<FieldParameters>(declare_field)},
             {"propagate", Order{"input"}.of<PropagateParameters>().of<FieldParameters>(declare_field)},
-            {"slm", Order{"input"}.of<PatternParameters>().of<FieldParameters>([](auto& field, auto& table) {
-                 field.code_option = "--input-phase-code";
-                 declare_field(field, table);
-             })},
+            {"slm", Order{"input"}
+                        .of<PatternParameters>()
+                        .of<HologramParameters>()
+                        .of<LightFieldParameters>(declare_light_field)
+                        .of<FieldParameters>([](auto& field, auto& table) {
+                            field.code_option = "--input-phase-code";
+                            declare_field(field, table);
+                        })},
             {"print", Order{"input"}.of<PrintParameters>()},
             {"bake", Order{"scene"}.of<BakeParameters>()},
             {"export", Order{"input"}.of<ExportParameters>()},

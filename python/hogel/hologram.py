@@ -208,7 +208,8 @@ class Hologram:
     def slm(self, **options: Any) -> Pattern:
         """Encodes the hologram as a modulator pattern. The modulator is a device by name (hogel.modulators()), or described
         by pixels and pixel_pitch. The options are those of `hogel slm`: encoding, device, pixels, pixel_pitch, levels,
-        reference, clip, window, iterations and phase_code.
+        reference, clip, window, iterations, frames and phase_code. `supervised` needs a hologram that LightField.hologram()
+        returned.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.exp(1j * np.arange(64.0))[:, None] * np.ones(64), pitch="8um", wavelength="532nm")
@@ -216,7 +217,7 @@ class Hologram:
         >>> np.asarray(pattern).shape, np.asarray(pattern).dtype
         ((64, 64, 1), dtype('uint8'))
         """
-        return pattern_of(self._sources, self._made if self.is_opened else None, **options)
+        return pattern_of(self._sources, self._made if self.is_opened else None, self._known, **options)
 
     def compare(self, other: "Hologram", *, progress: Progress = None) -> dict[str, float]:
         """Returns sqnr and psnr (decibels) and max_error of another hologram of the same sampling.

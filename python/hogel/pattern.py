@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from typing import Any, Optional, Union
 
@@ -29,7 +30,13 @@ class Pattern:
     def __init__(self, encoded: _core.SuitablePatterns, modulator: _core.Modulator, entries: list[tuple[str, str]]) -> None:
         # `entries`: metadata stored in its file.
         self._parts, self.modulator, self._entries = encoded.patterns, modulator, entries
-        self.levels = np.stack([part.levels for part in self._parts], axis=-1)
+        self._count = len(encoded.quality) or len(self._parts)  # wavelengths
+        frames = [
+            np.stack([part.levels for part in self._parts[first : first + self._count]], axis=-1)
+            for first in range(0, len(self._parts), self._count)
+        ]
+        self.levels = frames[0] if len(frames) == 1 else np.stack(frames)
+        self.quality = encoded.quality
         self.encoding = encoded.encoding.name.replace("_", "-")
 
     def __array__(self, dtype: Any = None) -> "np.ndarray[Any, Any]":
@@ -38,29 +45,29 @@ class Pattern:
     @property
     def efficiency(self) -> list[float]:
         """For each wavelength, the fraction of the light on the modulator that forms the wave of the hologram."""
-        return [part.efficiency for part in self._parts]
+        return [part.efficiency for part in self._parts[: self._count]]
 
     @property
     def correlation(self) -> list[float]:
         """For each wavelength, the correlation of the wave behind the aperture with that of the hologram (phase patterns)."""
-        return [part.correlation for part in self._parts]
+        return [part.correlation for part in self._parts[: self._count]]
 
     @property
     def aperture(self) -> list[_core.Aperture]:
         """For each wavelength, the round aperture in the Fourier plane that passes the light of the hologram: centre (x to
         the right, y downwards) and radius in cycles per pixel."""
-        return [part.aperture for part in self._parts]
+        return [part.aperture for part in self._parts[: self._count]]
 
     @property
     def power(self) -> list[float]:
         """For each wavelength, the illumination power per pixel at which the pattern is as bright as the hologram. Their
         ratios reproduce the colours of the hologram."""
-        return [part.power for part in self._parts]
+        return [part.power for part in self._parts[: self._count]]
 
     @property
     def reference_angle(self) -> list[float]:
         """For each wavelength, the angle of the reference wave, radians; 0: no reference wave."""
-        return [part.reference_angle for part in self._parts]
+        return [part.reference_angle for part in self._parts[: self._count]]
 
     def transmission(self, number: int = 0) -> "np.ndarray[Any, Any]":
         """Returns the complex transmission [y][x] of the modulator for a wavelength, before conversion to another phase code.
@@ -83,8 +90,15 @@ class Pattern:
         >>> pattern.save(os.path.join(tempfile.mkdtemp(), "pattern.png"))
         """
         name = os.fspath(path)
-        _core.require_writable(name)
-        _core.write_raw_pixels(name, self.levels, self._entries if metadata is None else metadata)
+        entries = self._entries if metadata is None else metadata
+        if self.levels.ndim == 3:
+            _core.require_writable(name)
+            _core.write_raw_pixels(name, self.levels, entries)
+            return
+        if "#" not in os.path.basename(name):
+            raise UsageError(f"save: {name}: expected name####.png for {len(self.levels)} patterns")
+        for frame, levels in enumerate(self.levels):
+            _core.write_raw_pixels(numbered(name, frame), levels, entries)
 
     def __repr__(self) -> str:
         m = self.modulator
@@ -92,16 +106,31 @@ class Pattern:
         return f"Pattern({m.width}x{m.height} pixels {units.say_length(m.pitch)} apart, {self.encoding}, efficiency {shares})"
 
 
+def numbered(name: str, frame: int) -> str:
+    """Returns name0007.png for name####.png and frame 7."""
+    folder, base = os.path.split(name)
+    return os.path.join(folder, re.sub("#+", lambda digits: str(frame).zfill(len(digits[0])), base, count=1))
+
+
 @takes(_core.pattern_keywords())
 def pattern_of(
-    fields: list[_core.FieldSource], made: Optional[_record.Record], *, progress: Progress = None, **options: Any
+    fields: list[_core.FieldSource],
+    made: Optional[_record.Record],
+    known: Optional[tuple[_core.LightField, _core.HologramRequest]] = None,
+    *,
+    progress: Progress = None,
+    **options: Any,
 ) -> Pattern:
-    """See Hologram.slm(). `made`: options of the command line for fields opened from a file."""
+    """See Hologram.slm(). `made`: options of the command line for fields opened from a file. `known`: the light field of
+    the holograms and their request."""
     modulator = _core.pattern_options(options).modulator
     if len(fields) not in (1, 3):
         raise UsageError(f"slm: a pattern takes one or three wavelengths, not {len(fields)}")
     with reporting(progress, "pattern") as report:
-        encoded = _core.encode_patterns(options, fields, report)
+        if known is not None and options.get("encoding") == "supervised":
+            encoded = _core.encode_light_field(options, *known, report)
+        else:
+            encoded = _core.encode_patterns(options, fields, report)
     for note in _core.pattern_notes(options, fields):
         warnings.warn(note, stacklevel=5)
     facts = _core.pattern_metadata(options, encoded, fields)

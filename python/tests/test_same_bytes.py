@@ -203,6 +203,22 @@ class SameBytes(InFolder):
                 pattern.save(f"p{number}.png")
                 self.assert_same(f"c{number}.png", f"p{number}.png")
 
+    def test_supervised_patterns(self):
+        modulator = ["--pixels", "64x48", "--pixel-pitch", "6.4um"]
+        command_line("render", "pumpkin", "-o", "lf.h5", "--hogels", "8x6", "--directions", "6", "--size", "0.4096mm", "--fov",
+                     "2.5deg", "--depth", "--float")
+        command_line("slm", "lf.h5", "-o", "c#.png", *modulator, "--encoding", "supervised", "--frames", "2", "--iterations", "3",
+                     "--wavelength", "532nm")
+        holo = hogel.LightField.open("lf.h5").hologram(wavelength="532nm", pitch="6.4um")
+        pattern = holo.slm(encoding="supervised", frames=2, iterations=3, pixels=(64, 48), pixel_pitch="6.4um")
+        pattern.save("p#.png")
+        self.assertEqual(np.asarray(pattern).shape, (2, 48, 64, 1))
+        self.assertGreater(pattern.quality[0].psnr, 5)
+        for frame in range(2):
+            self.assertTrue(np.array_equal(hogel.Picture.open(f"c{frame}.png"), hogel.Picture.open(f"p{frame}.png")))
+        with self.assertRaisesRegex(hogel.UsageError, "light field"):
+            holo.load().slm(encoding="supervised", pixels=(64, 48), pixel_pitch="6.4um")
+
     def test_decompress(self):
         command_line("render", "pumpkin", "-o", "lf.h5", *SMALL, "--depth")
         cases = [([], [], {}), (["--lossless"], [], {}), ([], ["--layers", "2"], {"layers": 2}), ([], ["--float"], {})]

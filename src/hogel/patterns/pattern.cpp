@@ -21,32 +21,16 @@ namespace {
 
 using Complex = std::complex<float>;
 
-void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
-    const Modulator& modulator = options.modulator;
-    if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
-        modulator.levels > max_modulator_levels)
-        throw Error(ErrorCode::usage, "pixel_pitch",
-                    fmt::format("invalid modulator: {}x{} pixels, pitch {}, {} levels; expected a "
-                                "positive size and pitch, and 2 to {} levels",
-                                modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels,
-                                max_modulator_levels));
-    if (modulator.modulation == "amplitude" && is_phase_only(options.encoding))
-        throw Error(ErrorCode::usage, "encoding",
-                    fmt::format("{} modulates amplitudes; expected intensity, bipolar, burckhardt, lee or binary",
-                                modulator.name));
-    for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
-        if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
-            throw Error(
-                ErrorCode::usage, "pixel_pitch",
-                fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; make the "
-                            "hologram with hogels of whole pixels and a pitch of {}",
-                            format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
-    if (!(options.clip >= 0 && options.clip < 1))
-        throw Error(ErrorCode::usage, "clip", "the share of clipped samples must be at least 0 and below 1");
+// Calls element(i) for all elements of an array, row by row on all threads.
+template <class Element>
+void for_rows(const Shape<2>& shape, const Element& element) {
+    work::parallel_for(shape[0], [&](std::size_t y) {
+        for (std::size_t i = y * shape[1]; i < (y + 1) * shape[1]; ++i) element(i);
+    });
 }
 
-// Returns the middle of the field, or the field with a dark border, in the size of the modulator.
-Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
+// Returns the middle of one look of the field, or the field with a dark border, in the size of the modulator.
+Array<Complex, 2> fit(const FieldSource& source, std::size_t look, const Modulator& modulator) {
     const Grid& plane = source.grid().plane;
     Array<Complex, 2> field({modulator.height, modulator.width});
     const std::size_t width = std::min(plane.width, modulator.width), height = std::min(plane.height, modulator.height);
@@ -59,19 +43,11 @@ Array<Complex, 2> fit(const FieldSource& source, const Modulator& modulator) {
                           to = std::min(y0 + height, (first + band + 1) * rows);
         const Region region{(plane.width - width) / 2, from, width, to - from};
         Array<Complex, 2> part({region.height, region.width});
-        source.read(region, 0, part);
+        source.read(region, look, part);
         for (std::size_t y = 0; y < region.height; ++y)
             std::copy_n(&part(y, 0), width, &field(top + from - y0 + y, left));
     });
     return field;
-}
-
-// Calls element(i) for all elements of an array, row by row on all threads.
-template <class Element>
-void for_rows(const Shape<2>& shape, const Element& element) {
-    work::parallel_for(shape[0], [&](std::size_t y) {
-        for (std::size_t i = y * shape[1]; i < (y + 1) * shape[1]; ++i) element(i);
-    });
 }
 
 // Scales the field to |F| ≤ 1, clipping the share `clip` of its samples. Returns the modulus that became 1.
@@ -122,28 +98,6 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band
 constexpr unsigned spread_levels = 256;
 
 unsigned rounded(double value) { return static_cast<unsigned>(std::lround(value)); }
-
-// Sets the levels to the values, rounded to `levels` levels.
-void round_to_levels(Pattern& pattern, unsigned levels, bool phases, const PhaseCode& code) {
-    const bool is_spread = levels < spread_levels;
-    pattern.largest_level = static_cast<std::uint16_t>(std::max(levels, spread_levels) - 1);
-    pattern.levels = Array<std::uint16_t, 2>(pattern.values.shape());
-    for_rows(pattern.values.shape(), [&](std::size_t i) {
-        const float value = pattern.values.data()[i];
-        unsigned level = 0;
-        if (phases) {  // phases wrap around from the last level to the first
-            double turns = value;
-            if (is_spread)
-                turns = rounded(value * static_cast<float>(levels)) % levels * spread_levels / levels /
-                        static_cast<double>(spread_levels);
-            level = code.level(2 * std::numbers::pi * turns, pattern.largest_level);
-        } else {
-            level = rounded(value * static_cast<float>(levels - 1));
-            if (is_spread) level = rounded(level * 255.0 / (levels - 1));
-        }
-        pattern.levels.data()[i] = static_cast<std::uint16_t>(level);
-    });
-}
 
 // Share of the modulator's light in F times the carrier: |<E, F c>|² / (<F, F> pixels).
 double efficiency_of(View<const Complex, 2> transmitted, View<const Complex, 2> field, const Carrier& carrier) {
@@ -210,7 +164,7 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
 
 bool is_phase_only(Encoding encoding) {
     return encoding == Encoding::phase || encoding == Encoding::double_phase ||
-           encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient;
+           encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient || encoding == Encoding::supervised;
 }
 
 Table<EncodingInfo>& encodings() {
@@ -224,6 +178,7 @@ Table<EncodingInfo>& encodings() {
             row("double-phase", "the modulus as two phases on a checkerboard", Encoding::double_phase),
             row("gerchberg-saxton", "phases by alternating projections", Encoding::gerchberg_saxton),
             row("gradient", "phases by descent towards the field within its band", Encoding::gradient),
+            row("supervised", "phases by descent towards photographs of a light field", Encoding::supervised),
             row("intensity", "amplitudes: the intensity of the interference with a reference wave",
                 Encoding::intensity),
             row("bipolar", "amplitudes: the real part on a reference wave, plus a constant", Encoding::bipolar),
@@ -244,29 +199,91 @@ std::string describe(const Aperture& aperture, double per_cycle) {
                        aperture.radius * per_cycle * focal_length / 1e-3);
 }
 
+namespace patterns {
+
+void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
+    const Modulator& modulator = options.modulator;
+    if (modulator.width == 0 || modulator.height == 0 || !(modulator.pitch > 0) || modulator.levels < 2 ||
+        modulator.levels > max_modulator_levels)
+        throw Error(ErrorCode::usage, "pixel_pitch",
+                    fmt::format("invalid modulator: {}x{} pixels, pitch {}, {} levels; expected a "
+                                "positive size and pitch, and 2 to {} levels",
+                                modulator.width, modulator.height, format_length(modulator.pitch), modulator.levels,
+                                max_modulator_levels));
+    if (modulator.modulation == "amplitude" && is_phase_only(options.encoding))
+        throw Error(ErrorCode::usage, "encoding",
+                    fmt::format("{} modulates amplitudes; expected intensity, bipolar, burckhardt, lee or binary",
+                                modulator.name));
+    for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
+        if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
+            throw Error(
+                ErrorCode::usage, "pixel_pitch",
+                fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; make the "
+                            "hologram with hogels of whole pixels and a pitch of {}",
+                            format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
+    if (!(options.clip >= 0 && options.clip < 1))
+        throw Error(ErrorCode::usage, "clip", "the share of clipped samples must be at least 0 and below 1");
+}
+
+void round_to_levels(Pattern& pattern, const PatternOptions& options) {
+    const unsigned levels = options.modulator.levels;
+    const bool phases = is_phase_only(options.encoding);
+    const bool is_spread = levels < spread_levels;
+    pattern.largest_level = static_cast<std::uint16_t>(std::max(levels, spread_levels) - 1);
+    pattern.levels = Array<std::uint16_t, 2>(pattern.values.shape());
+    for_rows(pattern.values.shape(), [&](std::size_t i) {
+        const float value = pattern.values.data()[i];
+        unsigned level = 0;
+        if (phases) {  // phases wrap around from the last level to the first
+            double turns = value;
+            if (is_spread)
+                turns = rounded(value * static_cast<float>(levels)) % levels * spread_levels / levels /
+                        static_cast<double>(spread_levels);
+            level = options.phase_code.level(2 * std::numbers::pi * turns, pattern.largest_level);
+        } else {
+            level = rounded(value * static_cast<float>(levels - 1));
+            if (is_spread) level = rounded(level * 255.0 / (levels - 1));
+        }
+        pattern.levels.data()[i] = static_cast<std::uint16_t>(level);
+    });
+}
+
+FittedField::FittedField(const FieldSource& source, std::size_t look, const PatternOptions& options)
+    : samples(fit(source, look, options.modulator)), unit(normalise(samples, options.clip)), band(samples) {}
+
+Pattern complete_pattern(Array<float, 2> values, const FittedField& field, const CarriedOrder& order,
+                         const PatternOptions& options) {
+    const bool phases = is_phase_only(options.encoding);
+    Pattern pattern;
+    pattern.values = std::move(values);
+    round_to_levels(pattern, options);
+    Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
+    pattern.efficiency = efficiency_of(transmitted, field.samples, order.carrier);
+    pattern.power = field.unit * field.unit * mean_power(field.samples) / pattern.efficiency;
+    pattern.reference_angle = order.angle;
+    pattern.aperture = phases ? field.band.aperture() : aperture_around(order, field.band.aperture());
+    if (!phases) return pattern;
+    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field.samples, options.window);
+    pattern.correlation = std::sqrt(1 - field.band.match(transmitted).error);
+    return pattern;
+}
+
+}  // namespace patterns
+
 Pattern encode_pattern(const FieldSource& source, const PatternOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
     require_fitting(source.grid(), options);
-    Array<Complex, 2> field = fit(source, options.modulator);
-    const double unit = normalise(field, options.clip);
-    Pattern pattern;
+    if (options.encoding == Encoding::supervised)
+        throw Error(ErrorCode::usage, "encoding",
+                    "supervised needs a light field or a scene; use gradient for a field");
+    const FittedField field(source, 0, options);
     CarriedOrder order;
     Convergence convergence;
-    const bool phases = is_phase_only(options.encoding);
-    const FieldBand band(field);
-    pattern.values = phases ? encode_phase(field, band, options, convergence, progress)
-                            : encode_amplitude(field, options, source.grid().wavelength, order);
-    round_to_levels(pattern, options.modulator.levels, phases, options.phase_code);
-    const Array<Complex, 2> transmitted = transmission(pattern, options.encoding, options.phase_code);
-    pattern.efficiency = efficiency_of(transmitted, field, order.carrier);
-    pattern.power = unit * unit * mean_power(field) / pattern.efficiency;
-    pattern.reference_angle = order.angle;
-    pattern.aperture = phases ? band.aperture() : aperture_around(order, band.aperture());
-    if (!phases) return pattern;
-    pattern.light_field_efficiency = light_field_efficiency_of(transmitted, field, options.window);
+    Array<float, 2> values = is_phase_only(options.encoding)
+                                 ? encode_phase(field.samples, field.band, options, convergence, progress)
+                                 : encode_amplitude(field.samples, options, source.grid().wavelength, order);
+    Pattern pattern = complete_pattern(std::move(values), field, order, options);
     pattern.iterations = convergence.iterations;
-    Array<Complex, 2> spectrum = transmitted;
-    pattern.correlation = std::sqrt(1 - band.match(spectrum).error);
     return pattern;
 }
 

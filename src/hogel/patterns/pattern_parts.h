@@ -117,6 +117,30 @@ class FieldBand {
     Aperture aperture_;
 };
 
+/// Throws Error(usage) for an invalid modulator, for a field of another pitch, and for an invalid clip.
+void require_fitting(const FieldGrid& grid, const PatternOptions& options);
+
+/// One look of a field on the pixels of a modulator, scaled to |F| ≤ 1.
+struct FittedField {
+    /// Throws Error(usage) if the field is dark on the modulator.
+    FittedField(const FieldSource& source, std::size_t look, const PatternOptions& options);
+
+    Array<std::complex<float>, 2> samples;
+    double unit = 0;  ///< the source's modulus that became 1
+    FieldBand band;
+};
+
+/// Sets the levels of a pattern to its values, rounded to those of the modulator.
+void round_to_levels(Pattern& pattern, const PatternOptions& options);
+
+/// Returns a pattern with these values, its levels and its measures.
+Pattern complete_pattern(Array<float, 2> values, const FittedField& field, const CarriedOrder& order,
+                         const PatternOptions& options);
+
+/// Computes the patterns of one field, see encode_supervised().
+SupervisedPatterns supervise(const FieldSource& field, const LightFieldSource& light_field, std::size_t channel,
+                             const PatternOptions& options, const Progress& progress);
+
 /// Tries the encodings phase, double_phase and gradient in this order. Returns the patterns of the first encoding that
 /// gives every pattern at least sufficient_correlation. If there is none, returns the patterns of the encoding with the
 /// highest minimum correlation over its patterns.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "hogel/core/stop_scope.h"
@@ -47,18 +49,53 @@ Pattern get(work::MessageReader& message) {
     return pattern;
 }
 
+void put_supervised(work::MessageWriter& message, const SupervisedPatterns& supervised) {
+    message.put(supervised.frames.size());
+    for (const Pattern& pattern : supervised.frames) put(message, pattern);
+    message.put(supervised.quality);
+}
+
+SupervisedPatterns get_supervised(work::MessageReader& message) {
+    SupervisedPatterns supervised;
+    supervised.frames.resize(message.get<std::size_t>());
+    for (Pattern& pattern : supervised.frames) pattern = get(message);
+    supervised.quality = message.get<PupilQuality>();
+    return supervised;
+}
+
+// Computes encode(i, progress) for every field on one of the ranks, and returns all results on all ranks.
+template <class Result, class Encode>
+std::vector<Result> encode_shared(std::size_t fields, const work::Sent<Result>& sent, const Progress& progress,
+                                  const Encode& encode) {
+    std::vector<Result> results(fields);
+    work::shared_jobs<Result>(
+        fields, sent, [&](std::size_t i) { return encode(i, progress.part(i, fields)); },
+        [&](std::size_t i, Result& result) { results[i] = std::move(result); });
+    for (Result& result : results) work::broadcast_result<Result>(result, sent);
+    return results;
+}
+
 }  // namespace
 
 std::vector<Pattern> encode_patterns(std::span<const std::shared_ptr<const FieldSource>> fields,
                                      const PatternOptions& options, const Progress& progress) {
     const core::StopScope scope(progress);
-    std::vector<Pattern> patterns(fields.size());
-    work::shared_jobs<Pattern>(
-        fields.size(), {put, get},
-        [&](std::size_t i) { return encode_pattern(*fields[i], options, progress.part(i, fields.size())); },
-        [&](std::size_t i, Pattern& pattern) { patterns[i] = std::move(pattern); });
-    for (Pattern& pattern : patterns) work::broadcast_result<Pattern>(pattern, {put, get});
-    return patterns;
+    return encode_shared<Pattern>(fields.size(), {put, get}, progress, [&](std::size_t i, const Progress& part) {
+        return encode_pattern(*fields[i], options, part);
+    });
+}
+
+std::vector<SupervisedPatterns> encode_supervised(std::span<const std::shared_ptr<const FieldSource>> fields,
+                                                  const LightFieldSource& light_field,
+                                                  std::span<const std::size_t> channels, const PatternOptions& options,
+                                                  const Progress& progress) {
+    const core::StopScope scope(progress);
+    if (channels.size() != fields.size())
+        throw Error(ErrorCode::usage, fmt::format("{} channels for {} fields", channels.size(), fields.size()));
+    return encode_shared<SupervisedPatterns>(
+        fields.size(), {put_supervised, get_supervised}, progress, [&](std::size_t i, const Progress& part) {
+            return patterns::supervise(*fields[i], light_field, channels[i], options, part);
+        });
 }
 
 namespace {

@@ -13,6 +13,7 @@ namespace hogel {
 namespace {
 
 constexpr const char* automatic_encoding = "auto";
+constexpr std::size_t max_frames = 64;
 
 std::string encoding_name(Encoding encoding) {
     for (const EncodingInfo& info : encodings().rows())
@@ -28,7 +29,7 @@ bool is_one_of(const std::string& encoding, std::initializer_list<Encoding> thes
 Metadata pattern_entries(const Pattern& pattern, double wavelength, const Modulator& modulator, Encoding encoding) {
     const std::string name = format_length(wavelength);
     Metadata entries{{"efficiency at " + name, fmt::format("{:.6f}", pattern.efficiency)}};
-    if (is_phase_only(encoding))
+    if (is_phase_only(encoding) && encoding != Encoding::supervised)
         entries.emplace_back("correlation at " + name, fmt::format("{:.6f}", pattern.correlation));
     if (pattern.iterations > 0) entries.emplace_back("iterations at " + name, fmt::format("{}", pattern.iterations));
     if (pattern.reference_angle != 0)
@@ -50,6 +51,7 @@ void declare_pattern(Parameters& parameters, PatternParameters& asked) {
         "double-phase: the modulus as the difference of two phases: for any field, dark, without iteration\n"
         "gerchberg-saxton: phases iterated to show the spectra of hogels: for random phases, not smooth ones\n"
         "gradient: phases optimised to show the field behind an aperture of its size: for any field\n"
+        "supervised: phases optimised by photographs through random pupils: for scenes and light fields; slow\n"
         "intensity: |F + R|² with a reference beam R\n"
         "bipolar: 2 Re(F R*), raised to be positive\n"
         "burckhardt, lee: three or four real components, in alternating columns\n"
@@ -65,12 +67,17 @@ void declare_pattern(Parameters& parameters, PatternParameters& asked) {
         .acts_if([&asked] { return is_one_of(asked.encoding, {Encoding::gerchberg_saxton}); });
     parameters
         .count("--iterations", asked.pattern.iterations,
-               "Gerchberg-Saxton: number of steps (default: 40); gradient: maximum number (default: 200), until the "
-               "correlation with the field stops rising")
+               "Number of steps of Gerchberg-Saxton (default: 40) and supervised (default: 300); gradient: maximum "
+               "number (default: 200), until the correlation with the field stops rising")
         .no_default()
         .acts_if([&asked] {
-            return is_one_of(asked.encoding, {Encoding::gerchberg_saxton, Encoding::gradient});
+            return is_one_of(asked.encoding, {Encoding::gerchberg_saxton, Encoding::gradient, Encoding::supervised});
         });
+    parameters
+        .count("--frames", asked.frames,
+               "Supervised: number of patterns that are shown in turn, with less speckle together; the output is "
+               "name####.png")
+        .acts_if([&asked] { return is_one_of(asked.encoding, {Encoding::supervised}); });
 }
 
 std::string summary_of(const Modulator& modulator) {
@@ -151,6 +158,27 @@ SuitablePatterns PatternParameters::encode(const Fields& fields, const Progress&
     return {chosen.encoding, encode_patterns(fields, chosen, progress)};
 }
 
+std::size_t PatternParameters::looks() const {
+    if (frames == 0 || frames > max_frames)
+        throw Error(ErrorCode::usage, "frames", fmt::format("expected 1 to {}", max_frames));
+    return encoding == automatic_encoding || !is_one_of(encoding, {Encoding::supervised}) ? 1 : frames;
+}
+
+SuitablePatterns PatternParameters::encode(const Fields& holograms, const LightField& light_field,
+                                           const HologramRequest& request, const Progress& progress) const {
+    const PatternOptions chosen = options();
+    if (chosen.encoding != Encoding::supervised) return encode(holograms, progress);
+    std::vector<std::size_t> channels;
+    for (const Channel& channel : request.channels)
+        channels.push_back(request.options(channel, light_field.grids()).channel.index);
+    SuitablePatterns encoded{chosen.encoding, {}};
+    auto supervised = encode_supervised(holograms, light_field.front(), channels, chosen, progress);
+    for (std::size_t frame = 0; frame < frames; ++frame)
+        for (SupervisedPatterns& of_field : supervised) encoded.patterns.push_back(std::move(of_field.frames[frame]));
+    for (const SupervisedPatterns& of_field : supervised) encoded.quality.push_back(of_field.quality);
+    return encoded;
+}
+
 void PatternParameters::resolve(Encoding chosen) {
     encoding = encoding_name(chosen);
     phase_code = code();
@@ -166,6 +194,10 @@ Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fiel
         wavelengths.push_back(fields[c]->grid().wavelength);
         for (auto& field_entry : pattern_entries(encoded.patterns[c], wavelengths[c], device_used, encoded.encoding))
             entries.push_back(std::move(field_entry));
+        if (encoded.quality.empty()) continue;
+        entries.emplace_back(
+            "photographs through pupils at " + format_length(wavelengths[c]),
+            fmt::format("{:.2f} dB, contrast {:.3f}", encoded.quality[c].psnr, encoded.quality[c].contrast));
     }
     ExternalField external{.pitch_x = device_used.pitch, .pitch_y = device_used.pitch};
     external.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
