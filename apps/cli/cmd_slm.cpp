@@ -173,10 +173,10 @@ int slm(Options& options, const Session& session) {
                               options.resume ? describe_input(options.input) : "");
     const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
     const bool is_automatic = options.pattern.encoding == "auto";
-    const Encoded made =
+    Encoded made =
         kind == InputKind::hologram ? encode_hologram(options, session) : encode_light_field(options, kind, session);
     const Fields& fields = made.fields;
-    const SuitablePatterns& encoded = made.patterns;
+    SuitablePatterns& encoded = made.patterns;
     const std::size_t colours = fields.size();
     options.pattern.resolve(encoded.encoding);
     const std::string& encoding = options.pattern.encoding;
@@ -198,6 +198,8 @@ int slm(Options& options, const Session& session) {
     }
     if (colours == 3) session.say(powers_of(std::span(encoded.patterns).first(colours)));
     if (!is_root_rank()) return 0;
+    std::vector<Array<std::uint16_t, 2>> sent = options.pattern.panel_levels(encoded, fields);
+    for (std::size_t i = 0; i < sent.size(); ++i) encoded.patterns[i].levels = std::move(sent[i]);
     write_files(options, encoded, colours, with_history(metadata, to_metadata(fields.front()->provenance())));
     resumable.complete();
     session.say(fmt::format("{}: {}{}x{} pixels of {}", options.output,

@@ -133,6 +133,7 @@ struct ExternalField {
     std::string variable = {};  ///< array to read if the file has several, or two: "re,im"
     bool conjugate = false;     ///< whether the file's time factor is e^{+iωt}
     std::size_t colour = 0;     ///< index of the field, below ExternalFacts::colours
+    PanelLevels panel = {};     ///< for field_entries()
     std::size_t largest = 0;  ///< number V of the phase code, or of amplitude 1; 0: the largest that the file can hold
 };
 
@@ -147,6 +148,7 @@ struct ExternalFacts {
     std::string complaint;              ///< why a pitch or wavelength in the file was rejected
     std::string values;                 ///< "phase" or "amplitude" if a picture says it, see field_entries()
     std::string phase_code;             ///< code of those phases, for parse_phase_code()
+    PanelLevels panel;                  ///< if a picture says it: tables and flips are undone when it is read
     std::size_t largest = 0;            ///< ExternalField::largest, if a picture says it
 };
 

@@ -30,6 +30,8 @@ struct Modulator {
     double fill_factor = 0;                 ///< share of a pixel's area that modulates; 0: unknown
     double shortest_wavelength = 0, longest_wavelength = 0;  ///< of its light, metres; 0: unknown
     double refresh_rate = 0;                                 ///< pictures a second; 0: unknown
+    std::string flip = {};                                   ///< none, horizontal, vertical or both; empty: none
+    std::string lut = {}, correction = {};                   ///< files of its level table and wavefront correction
     std::string source = {};                                 ///< address of a page with these figures
     bool verified = true;                                    ///< whether they were compared with `source`
     std::string note = {};                                   ///< one line for its user
@@ -206,6 +208,28 @@ struct SuitablePatterns {
 /// Encodes several fields by the encoding that suits all, as suitable_encoding() selects it; computes patterns once.
 HOGEL_API SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,
                                            const PatternOptions& options, const Progress& progress = {});
+
+/// What a panel adds to a pattern.
+struct PanelOptions {
+    PanelLevels levels = {};
+    Array<float, 2> correction = {};  ///< [y][x] as sent: levels added to those of phases, modulo all; empty: none
+    double lens = 0;                  ///< focal length of a lens in the plane of the pattern, metres; 0: none
+    double blaze_x = 0, blaze_y = 0;  ///< frequency of a blazed grating, cycles a pixel to the right and upwards
+};
+
+/// Throws Error(usage) if a level table or a correction does not have the size of the modulator, or if phases would be
+/// added to amplitudes.
+HOGEL_API void require_panel(const PanelOptions& panel, const PatternOptions& options);
+
+/// Returns what is sent to a panel, [y][x]: lens and grating are added to the phases, then the pattern is flipped, the
+/// correction added, and the sum rounded to levels, which the table replaces. The pattern is not changed. Throws as
+/// require_panel() does.
+HOGEL_API Array<std::uint16_t, 2> panel_levels(const Pattern& pattern, const PatternOptions& options,
+                                               const PanelOptions& panel, double wavelength);
+
+/// Reads a level table: a line for each level, from 0, with the level to send, or with the index and the level,
+/// separated by a comma, a semicolon or blanks. Text after # is a comment. Throws Error(bad_input), with the line.
+HOGEL_API std::vector<std::uint16_t> read_level_table(const std::filesystem::path& path);
 
 /// Writes the levels of patterns, one or three, as the channels of a picture by write_raw_pixels(): of 8 bits if
 /// largest_level is 255, otherwise of 16. Throws as write_raw_pixels() does.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "hogel/export.h"
 #include "hogel/table.h"
@@ -27,6 +29,16 @@ struct PhaseCode {
     HOGEL_API unsigned level(double phase, unsigned largest) const;
 
     friend bool operator==(const PhaseCode&, const PhaseCode&) = default;
+};
+
+/// How the levels of a pattern are sent to a panel. The pattern's file states it, so that readers undo tables and
+/// flips.
+struct PanelLevels {
+    std::vector<std::uint16_t> table = {};      ///< number that is sent for each level; empty: the level itself
+    bool flipped_x = false, flipped_y = false;  ///< whether columns or rows are sent in reverse order
+    std::string correction = {};                ///< file of a wavefront correction that the levels contain; empty: none
+
+    friend bool operator==(const PanelLevels&, const PanelLevels&) = default;
 };
 
 /// A row of phase_codes().

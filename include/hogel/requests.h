@@ -191,11 +191,19 @@ struct HOGEL_API PatternParameters {
     std::size_t levels = 256;       ///< per pixel
     std::string phase_code;         ///< for parse_phase_code(); empty: that of the device, or hogel
     std::size_t frames = 1;         ///< patterns shown in turn, for the encoding supervised
+    std::string lut, correction;    ///< files of a level table and a wavefront correction; empty: those of the device
+    std::string flip;               ///< none, horizontal, vertical or both; empty: that of the device
+    double lens = 0;                ///< focal length, metres; 0: none
+    std::string blaze;              ///< "FX,FY": cycles a pixel to the right and upwards; empty: none
 
     /// Returns the named or described modulator. Throws Error(usage), and as find_modulator() does.
     Modulator modulator() const;
     /// Returns the phase code that is used.
     std::string code() const;
+    /// Reads what is added for the panel. Throws Error(usage) and Error(bad_input).
+    PanelOptions panel() const;
+    /// Returns hogel::panel_levels() of each pattern.
+    std::vector<Array<std::uint16_t, 2>> panel_levels(const SuitablePatterns& encoded, const Fields& fields) const;
     /// Returns notes_about() the modulator and the wavelengths of the fields.
     std::vector<std::string> notes(const Fields& fields) const;
     /// Returns the options with modulator and phase code, and with the encoding unless it is auto. Throws Error(usage).
@@ -208,7 +216,7 @@ struct HOGEL_API PatternParameters {
     /// encode_pattern() and encode_supervised() do.
     SuitablePatterns encode(const Fields& holograms, const LightField& light_field, const HologramRequest& request,
                             const Progress& progress = {}) const;
-    /// Stores the selected encoding, the device's name as modulators() spells it, and the phase code that is used.
+    /// Stores the selected encoding, the device's name as modulators() spells it, and what its profile sets.
     void resolve(Encoding chosen);
     /// Returns metadata of a pattern file: results of each wavelength, such as "efficiency at 532 nm", and
     /// field_entries().

@@ -66,6 +66,7 @@ void add_external_fields(py::module_& module) {
         .def_readwrite("variable", &ExternalField::variable)
         .def_readwrite("conjugate", &ExternalField::conjugate)
         .def_readwrite("colour", &ExternalField::colour)
+        .def_readwrite("panel", &ExternalField::panel)
         .def_readwrite("largest", &ExternalField::largest);
     py::class_<ExternalFacts>(module, "ExternalFacts")
         .def_readonly("format", &ExternalFacts::format)
@@ -79,6 +80,7 @@ void add_external_fields(py::module_& module) {
         .def_readonly("complaint", &ExternalFacts::complaint)
         .def_readonly("values", &ExternalFacts::values)
         .def_readonly("phase_code", &ExternalFacts::phase_code)
+        .def_readonly("panel", &ExternalFacts::panel)
         .def_readonly("largest", &ExternalFacts::largest);
     module.def(
         "external_facts",

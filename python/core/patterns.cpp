@@ -18,6 +18,12 @@ using py::arg;
 using Source = std::shared_ptr<const FieldSource>;
 
 void add_phase_codes(py::module_& module) {
+    py::class_<PanelLevels>(module, "PanelLevels")
+        .def(py::init<>())
+        .def_readwrite("table", &PanelLevels::table)
+        .def_readwrite("flipped_x", &PanelLevels::flipped_x)
+        .def_readwrite("flipped_y", &PanelLevels::flipped_y)
+        .def_readwrite("correction", &PanelLevels::correction);
     py::class_<PhaseCode>(module, "PhaseCode")
         .def(py::init([](double range, double offset, bool inverted, bool closed) {
                  return PhaseCode{range, offset, inverted, closed};
@@ -69,6 +75,9 @@ void add_encodings(py::module_& module) {
         .def_readwrite("shortest_wavelength", &Modulator::shortest_wavelength)
         .def_readwrite("longest_wavelength", &Modulator::longest_wavelength)
         .def_readwrite("refresh_rate", &Modulator::refresh_rate)
+        .def_readwrite("flip", &Modulator::flip)
+        .def_readwrite("lut", &Modulator::lut)
+        .def_readwrite("correction", &Modulator::correction)
         .def_readwrite("source", &Modulator::source)
         .def_readwrite("verified", &Modulator::verified)
         .def_readwrite("note", &Modulator::note)
@@ -92,9 +101,8 @@ void write_pixels(const std::filesystem::path& path, const py::array_t<T, py::ar
 }
 
 // Levels as numbers of 8 bits, if these hold them.
-py::object levels_of(const std::shared_ptr<Pattern>& pattern) {
-    const View<const std::uint16_t, 2> levels = pattern->levels;
-    if (pattern->largest_level > 255) return array_over(levels.data(), levels.shape(), py::cast(pattern));
+py::object narrowed(Array<std::uint16_t, 2>&& levels, unsigned largest) {
+    if (largest > 255) return array_of(std::move(levels));
     Array<std::uint8_t, 2> bytes(levels.shape());
     std::ranges::transform(levels.elements(), bytes.data(),
                            [](std::uint16_t level) { return static_cast<std::uint8_t>(level); });
@@ -173,6 +181,15 @@ void add_pattern_keywords(py::module_& module) {
         },
         arg("keywords"), arg("chosen"));
     module.def(
+        "panel_levels",
+        [](const py::dict& keywords, const SuitablePatterns& encoded, const Fields& fields) {
+            std::vector<py::object> arrays;
+            for (Array<std::uint16_t, 2>& levels : Asked(keywords).values.panel_levels(encoded, fields))
+                arrays.push_back(narrowed(std::move(levels), encoded.patterns[0].largest_level));
+            return arrays;
+        },
+        arg("keywords"), arg("encoded"), arg("fields"));
+    module.def(
         "pattern_notes",
         [](const py::dict& keywords, const Fields& fields) { return Asked(keywords).values.notes(fields); },
         arg("keywords"), arg("fields"));
@@ -223,7 +240,8 @@ void add_patterns(py::module_& module) {
                                [](const std::shared_ptr<Pattern>& p) {
                                    return array_over(p->values.data(), p->values.shape(), py::cast(p));
                                })
-        .def_property_readonly("levels", &levels_of)
+        .def_property_readonly(
+            "levels", [](const Pattern& p) { return narrowed(Array<std::uint16_t, 2>(p.levels), p.largest_level); })
         .def_readonly("largest_level", &Pattern::largest_level)
         .def_readonly("efficiency", &Pattern::efficiency)
         .def_readonly("light_field_efficiency", &Pattern::light_field_efficiency)

@@ -9,7 +9,7 @@ from . import _core
 #: Value types, defined by their members.
 OPTIONS = (
     "BandCamera Basis BakeOptions CodingMethod CompressionOptions DirectCamera ExternalField FilePart Fourier HologramRequest Light "
-    "LightFieldRequest Lines Lossless MakeRequest Material MaxError Modulator NamedCamera OrderSelection OverlapAdd PatternOptions PhaseAdded PhaseCode "
+    "LightFieldRequest Lines Lossless MakeRequest Material MaxError Modulator NamedCamera OrderSelection OverlapAdd PanelLevels PatternOptions PhaseAdded PhaseCode "
     "PixelsPerBit PlaneWaveCamera ScenePose ShadingOptions SpeckleFreeCamera Sqnr Step TextureSampling"
 ).split()
 #: Constructor arguments; the other members are set afterwards.

@@ -208,8 +208,8 @@ class Hologram:
     def slm(self, **options: Any) -> Pattern:
         """Encodes the hologram as a modulator pattern. The modulator is a device by name (hogel.modulators()), or described
         by pixels and pixel_pitch. The options are those of `hogel slm`: encoding, device, pixels, pixel_pitch, levels,
-        reference, clip, window, iterations, frames and phase_code. `supervised` needs a hologram that LightField.hologram()
-        returned.
+        reference, clip, window, iterations, frames, phase_code, lut, correction, flip, lens and blaze. `supervised` needs a
+        hologram that LightField.hologram() returned.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.exp(1j * np.arange(64.0))[:, None] * np.ones(64), pitch="8um", wavelength="532nm")

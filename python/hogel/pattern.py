@@ -27,14 +27,13 @@ class Pattern:
     (32, 32, 1)
     """
 
-    def __init__(self, encoded: _core.SuitablePatterns, modulator: _core.Modulator, entries: list[tuple[str, str]]) -> None:
-        # `entries`: metadata stored in its file.
+    def __init__(
+        self, encoded: _core.SuitablePatterns, levels: list[Any], modulator: _core.Modulator, entries: list[tuple[str, str]]
+    ) -> None:
+        # `levels`: those that are sent to the panel. `entries`: metadata stored in its file.
         self._parts, self.modulator, self._entries = encoded.patterns, modulator, entries
         self._count = len(encoded.quality) or len(self._parts)  # wavelengths
-        frames = [
-            np.stack([part.levels for part in self._parts[first : first + self._count]], axis=-1)
-            for first in range(0, len(self._parts), self._count)
-        ]
+        frames = [np.stack(levels[first : first + self._count], axis=-1) for first in range(0, len(levels), self._count)]
         self.levels = frames[0] if len(frames) == 1 else np.stack(frames)
         self.quality = encoded.quality
         self.encoding = encoded.encoding.name.replace("_", "-")
@@ -70,7 +69,8 @@ class Pattern:
         return [part.reference_angle for part in self._parts[: self._count]]
 
     def transmission(self, number: int = 0) -> "np.ndarray[Any, Any]":
-        """Returns the complex transmission [y][x] of the modulator for a wavelength, before conversion to another phase code.
+        """Returns the complex transmission [y][x] of the modulator for a wavelength, before conversion to another phase code and
+        to the levels of the panel.
 
         >>> import hogel, numpy as np
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -133,9 +133,10 @@ def pattern_of(
             encoded = _core.encode_patterns(options, fields, report)
     for note in _core.pattern_notes(options, fields):
         warnings.warn(note, stacklevel=5)
+    levels = _core.panel_levels(options, encoded, fields)
     facts = _core.pattern_metadata(options, encoded, fields)
     if made is None:
-        return Pattern(encoded, modulator, _record.by_function("Hologram.slm") + facts)
+        return Pattern(encoded, levels, modulator, _record.by_function("Hologram.slm") + facts)
     record = {**_record.renamed(made, "phase-code", "input-phase-code"), **dict(_core.pattern_record(options, encoded.encoding))}
     entries = _core.with_history(_record.entries("slm", record) + facts, fields[0].provenance)
-    return Pattern(encoded, modulator, entries)
+    return Pattern(encoded, levels, modulator, entries)

@@ -135,6 +135,18 @@ void take_light(const Members& members, Modulator& modulator) {
     }
 }
 
+// Files are relative to the folder of the profile.
+void take_panel(const Members& members, const fs::path& folder, Modulator& modulator) {
+    modulator.flip = members.text("flip");
+    if (!std::ranges::count(std::initializer_list<const char*>{"", "none", "horizontal", "vertical", "both"},
+                            modulator.flip))
+        members.fail("flip", "none, horizontal, vertical or both");
+    for (const auto& [member, file] :
+         {std::pair{"lut", &modulator.lut}, std::pair{"correction", &modulator.correction}})
+        if (const std::string name = members.text(member, "a file name"); !name.empty())
+            *file = (folder / name).string();
+}
+
 // Returns the profile, or a modulator whose `fault` says why there is none.
 Modulator profile_or_fault(const std::string& name, const std::function<std::string()>& text, const std::string& file) {
     try {
@@ -163,13 +175,15 @@ Modulator read_profile(const std::string& name, std::string_view text, const std
     if (const std::string kind = members.text("kind", "modulator"); kind != "modulator")
         members.fail("kind", kind.empty() ? "modulator" : fmt::format("modulator, not {}", kind));
     members.require_known({"kind", "name", "aliases", "pixels", "pixel_pitch_um", "levels", "bits", "modulation",
-                           "fill_factor", "wavelengths_nm", "refresh_hz", "phase_code", "source", "verified", "note"});
+                           "fill_factor", "wavelengths_nm", "refresh_hz", "phase_code", "flip", "lut", "correction",
+                           "source", "verified", "note"});
     Modulator modulator{.name = name};
     modulator.title = members.text("name");
     modulator.aliases = members.texts("aliases");
     take_geometry(members, modulator);
     take_levels(members, modulator);
     take_light(members, modulator);
+    take_panel(members, fs::path(file).parent_path(), modulator);
     modulator.source = members.text("source");
     modulator.verified = members.flag("verified");
     if (modulator.verified && modulator.source.empty())

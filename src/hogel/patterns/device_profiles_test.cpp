@@ -47,14 +47,17 @@ TEST(DeviceProfiles, are_read_with_all_members) {
     const Modulator made = read_profile(
         "own",
         profile("[40, 30]", R"("bits": 5)", R"("aliases": ["mine"], "fill_factor": 0.9, "wavelengths_nm": [450, 650],
-            "refresh_hz": 60, "phase_code": "slmsuite", "source": "https://example.org", "verified": true,
+            "refresh_hz": 60, "phase_code": "slmsuite", "flip": "both", "lut": "t.csv", "correction": "/c.png", "source": "https://example.org", "verified": true,
             "note": "warm it up")"),
-        "own.json");
+        "folder/own.json");
     Modulator wanted{"own", 40, 30, 9.2e-6, 32, "Own panel", {"mine"}, "phase", "slmsuite"};
     wanted.fill_factor = 0.9;
     wanted.shortest_wavelength = 450e-9;
     wanted.longest_wavelength = 650e-9;
     wanted.refresh_rate = 60;
+    wanted.flip = "both";
+    wanted.lut = "folder/t.csv";
+    wanted.correction = "/c.png";
     wanted.source = "https://example.org";
     wanted.note = "warm it up";
     EXPECT_EQ(made, wanted);
@@ -88,6 +91,8 @@ TEST(DeviceProfiles, with_a_fault_are_refused_by_file_member_and_what_was_expect
               "own.json: wavelengths_nm: expected two numbers of nanometres, the shortest wavelength first");
     EXPECT_NE(other(R"("phase_code": "slm", "verified": false)").find("own.json: phase_code: expected a phase code"),
               std::string::npos);
+    EXPECT_EQ(other(R"("flip": "x", "verified": false)"),
+              "own.json: flip: expected none, horizontal, vertical or both");
     EXPECT_NE(other(R"("pitch": 8, "verified": false)").find("own.json: pitch: is no member of a profile"),
               std::string::npos);
 }

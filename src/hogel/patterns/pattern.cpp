@@ -94,9 +94,6 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band
     return cycles;
 }
 
-// Levels of modulators with at most this many are spread over its numbers, as displays of 8 bits expect them.
-constexpr unsigned spread_levels = 256;
-
 unsigned rounded(double value) { return static_cast<unsigned>(std::lround(value)); }
 
 // Share of the modulator's light in F times the carrier: |<E, F c>|² / (<F, F> pixels).
@@ -162,6 +159,20 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
 
 }  // namespace
 
+std::uint16_t patterns::Rounding::operator()(float value) const {
+    const bool is_spread = levels < 256;
+    unsigned level = 0;
+    if (phases) {  // phases wrap around from the last level to the first
+        double turns = value;
+        if (is_spread) turns = rounded(value * static_cast<float>(levels)) % levels * 256 / levels / 256.0;
+        level = code.level(2 * std::numbers::pi * turns, largest());
+    } else {
+        level = rounded(value * static_cast<float>(levels - 1));
+        if (is_spread) level = rounded(level * 255.0 / (levels - 1));
+    }
+    return static_cast<std::uint16_t>(level);
+}
+
 bool is_phase_only(Encoding encoding) {
     return encoding == Encoding::phase || encoding == Encoding::double_phase ||
            encoding == Encoding::gerchberg_saxton || encoding == Encoding::gradient || encoding == Encoding::supervised;
@@ -226,26 +237,11 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
 }
 
 void round_to_levels(Pattern& pattern, const PatternOptions& options) {
-    const unsigned levels = options.modulator.levels;
-    const bool phases = is_phase_only(options.encoding);
-    const bool is_spread = levels < spread_levels;
-    pattern.largest_level = static_cast<std::uint16_t>(std::max(levels, spread_levels) - 1);
+    const Rounding round{options.modulator.levels, is_phase_only(options.encoding), options.phase_code};
+    pattern.largest_level = round.largest();
     pattern.levels = Array<std::uint16_t, 2>(pattern.values.shape());
-    for_rows(pattern.values.shape(), [&](std::size_t i) {
-        const float value = pattern.values.data()[i];
-        unsigned level = 0;
-        if (phases) {  // phases wrap around from the last level to the first
-            double turns = value;
-            if (is_spread)
-                turns = rounded(value * static_cast<float>(levels)) % levels * spread_levels / levels /
-                        static_cast<double>(spread_levels);
-            level = options.phase_code.level(2 * std::numbers::pi * turns, pattern.largest_level);
-        } else {
-            level = rounded(value * static_cast<float>(levels - 1));
-            if (is_spread) level = rounded(level * 255.0 / (levels - 1));
-        }
-        pattern.levels.data()[i] = static_cast<std::uint16_t>(level);
-    });
+    for_rows(pattern.values.shape(),
+             [&](std::size_t i) { pattern.levels.data()[i] = round(pattern.values.data()[i]); });
 }
 
 FittedField::FittedField(const FieldSource& source, std::size_t look, const PatternOptions& options)

@@ -25,6 +25,17 @@ auto sum_of_lines(std::size_t count, const OfLine& of_line) {
     return sum;
 }
 
+/// Rounds values, phases in cycles or amplitudes, to the numbers of a modulator's levels. Levels of modulators with
+/// less than 256 are spread over 0 to 255, as displays of 8 bits expect them.
+struct Rounding {
+    unsigned levels;
+    bool phases;
+    PhaseCode code;
+
+    std::uint16_t operator()(float value) const;
+    std::uint16_t largest() const { return static_cast<std::uint16_t>(std::max(levels, 256u) - 1); }
+};
+
 /// Carrier wave e^{2πi f_x·column}, by column. The useful order of a pattern is F times the carrier.
 using Carrier = std::vector<std::complex<float>>;
 

@@ -279,6 +279,9 @@ OpenedFields FieldParameters::open(const std::string& name, const Parameters& ta
         complete_sampling(*this, name, table, facts, external);
         OpenedFields opened{{}, contradictions(name, *this, table, facts, external)};
         complete_values(*this, table, facts, external);
+        if (!facts.panel.correction.empty())
+            opened.notes.push_back(fmt::format("{}: contains the wavefront correction {}, which is not subtracted",
+                                               name, facts.panel.correction));
         for (external.colour = 0; external.colour < facts.colours; ++external.colour) {
             external.wavelength = wavelengths[external.colour];
             opened.fields.push_back(open_external_field(name, external));

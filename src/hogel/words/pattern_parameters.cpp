@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "hogel/error.h"
+#include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/requests.h"
 #include "hogel/units.h"
@@ -115,6 +119,44 @@ void declare_modulator(Parameters& parameters, PatternParameters& asked) {
         .acts_if([&asked] { return is_phase_only(encodings().find(asked.encoding).encoding); });
 }
 
+void declare_panel(Parameters& parameters, PatternParameters& asked) {
+    const auto has_phases = [&asked] { return is_phase_only(encodings().find(asked.encoding).encoding); };
+    parameters.group("Panel");
+    parameters
+        .text("--lut", asked.lut, "FILE",
+              "Level table: a line for each level, with the level to send, or with its index and that level")
+        .default_text("of the device");
+    parameters
+        .text("--correction", asked.correction, "PICTURE",
+              "Wavefront correction: a picture of the modulator's pixels, whose levels are added to those of phases")
+        .default_text("of the device")
+        .acts_if(has_phases);
+    parameters
+        .choice("--flip", asked.flip, {"none", "horizontal", "vertical", "both"}, "none|horizontal|vertical|both",
+                "Send columns (horizontal), rows (vertical) or both in reverse order")
+        .default_text("of the device, or none");
+    parameters.length("--lens", asked.lens, "Add a lens of this focal length to the phases; negative: a diverging lens")
+        .no_default()
+        .acts_if([&asked, has_phases] { return has_phases() && asked.lens != 0; });
+    parameters
+        .text("--blaze", asked.blaze, "FX,FY",
+              "Add a blazed grating to the phases: cycles a pixel to the right and upwards, as --order of hogel photo")
+        .no_default()
+        .acts_if(has_phases);
+}
+
+// Returns the two frequencies of a grating.
+std::pair<double, double> parse_blaze(const std::string& text) {
+    if (text.empty()) return {0, 0};
+    const std::size_t comma = text.find(',');
+    const auto x = parse_number(text.substr(0, comma));
+    const auto y = comma == std::string::npos ? std::nullopt : parse_number(text.substr(comma + 1));
+    if (!x || !y || !(std::abs(*x) <= 0.5 && std::abs(*y) <= 0.5))
+        throw Error(ErrorCode::usage, "blaze",
+                    fmt::format("'{}' is not FX,FY, from -0.5 to 0.5 cycles a pixel, e.g. 0.25,0", text));
+    return {*x, *y};
+}
+
 }  // namespace
 
 Modulator PatternParameters::modulator() const {
@@ -138,6 +180,37 @@ std::string PatternParameters::code() const {
     return of_device.empty() ? phase_code_text({}) : of_device;
 }
 
+PanelOptions PatternParameters::panel() const {
+    const Modulator device_used = modulator();
+    const auto chosen = [](const std::string& own, const std::string& devices) { return own.empty() ? devices : own; };
+    const std::string table = chosen(lut, device_used.lut), added = chosen(correction, device_used.correction),
+                      order = chosen(flip, device_used.flip);
+    PanelOptions options{.lens = lens};
+    // Amplitudes leave out the correction of a profile.
+    const bool is_phases = encoding == automatic_encoding || is_phase_only(encodings().find(encoding).encoding);
+    if (!table.empty()) options.levels.table = read_level_table(table);
+    if (!added.empty() && (!correction.empty() || is_phases)) {
+        options.correction = read_raw_pixels(added).values;
+        options.levels.correction = added;
+    }
+    options.levels.flipped_x = order == "horizontal" || order == "both";
+    options.levels.flipped_y = order == "vertical" || order == "both";
+    std::tie(options.blaze_x, options.blaze_y) = parse_blaze(blaze);
+    return options;
+}
+
+std::vector<Array<std::uint16_t, 2>> PatternParameters::panel_levels(const SuitablePatterns& encoded,
+                                                                     const Fields& fields) const {
+    PatternOptions chosen = options();
+    chosen.encoding = encoded.encoding;
+    const PanelOptions added = panel();
+    std::vector<Array<std::uint16_t, 2>> levels;
+    for (std::size_t i = 0; i < encoded.patterns.size(); ++i)
+        levels.push_back(
+            hogel::panel_levels(encoded.patterns[i], chosen, added, fields[i % fields.size()]->grid().wavelength));
+    return levels;
+}
+
 std::vector<std::string> PatternParameters::notes(const Fields& fields) const {
     std::vector<double> wavelengths;
     for (const auto& field : fields) wavelengths.push_back(field->grid().wavelength);
@@ -154,6 +227,7 @@ PatternOptions PatternParameters::options() const {
 
 SuitablePatterns PatternParameters::encode(const Fields& fields, const Progress& progress) const {
     const PatternOptions chosen = options();
+    require_panel(panel(), chosen);
     if (encoding == automatic_encoding) return encode_suitably(fields, chosen, progress);
     return {chosen.encoding, encode_patterns(fields, chosen, progress)};
 }
@@ -168,6 +242,7 @@ SuitablePatterns PatternParameters::encode(const Fields& holograms, const LightF
                                            const HologramRequest& request, const Progress& progress) const {
     const PatternOptions chosen = options();
     if (chosen.encoding != Encoding::supervised) return encode(holograms, progress);
+    require_panel(panel(), chosen);
     std::vector<std::size_t> channels;
     for (const Channel& channel : request.channels)
         channels.push_back(request.options(channel, light_field.grids()).channel.index);
@@ -182,7 +257,12 @@ SuitablePatterns PatternParameters::encode(const Fields& holograms, const LightF
 void PatternParameters::resolve(Encoding chosen) {
     encoding = encoding_name(chosen);
     phase_code = code();
-    if (!device.empty()) device = find_modulator(device).name;
+    if (device.empty()) return;
+    const Modulator found = find_modulator(device);
+    device = found.name;
+    if (lut.empty()) lut = found.lut;
+    if (flip.empty()) flip = found.flip;
+    if (correction.empty() && is_phase_only(chosen)) correction = found.correction;
 }
 
 Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fields& fields) const {
@@ -202,6 +282,7 @@ Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fiel
     ExternalField external{.pitch_x = device_used.pitch, .pitch_y = device_used.pitch};
     external.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
     external.phase_code = parse_phase_code(code());
+    external.panel = panel().levels;
     external.largest = encoded.patterns[0].largest_level;
     for (auto& field_entry : field_entries(external, wavelengths)) entries.push_back(std::move(field_entry));
     return entries;
@@ -210,6 +291,7 @@ Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fiel
 void PatternParameters::declare(Parameters& parameters) {
     declare_pattern(parameters, *this);
     declare_modulator(parameters, *this);
+    declare_panel(parameters, *this);
 }
 
 }  // namespace hogel

@@ -2,6 +2,7 @@
 #include "hogel/io/arrays/field_entries.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -17,7 +18,8 @@ using namespace io::arrays;
 namespace {
 
 constexpr const char *pitch_x_key = "pitch_x_m", *pitch_y_key = "pitch_y_m", *values_key = "values",
-                     *phase_code_key = "phase_code", *largest_key = "largest_level";
+                     *phase_code_key = "phase_code", *largest_key = "largest_level", *flip_key = "flip",
+                     *table_key = "level_table", *correction_key = "correction_file";
 
 std::string wavelength_key(std::size_t field) { return fmt::format("field{}_wavelength_m", field); }
 
@@ -35,6 +37,32 @@ double positive_number(const Metadata& entries, const std::string& key) {
     return error == std::errc() && std::isfinite(value) && value > 0 ? value : 0;
 }
 
+void add_panel(const PanelLevels& panel, Metadata& entries) {
+    if (panel.flipped_x || panel.flipped_y)
+        entries.emplace_back(flip_key, panel.flipped_x && panel.flipped_y ? "both"
+                                       : panel.flipped_x                  ? "horizontal"
+                                                                          : "vertical");
+    if (!panel.table.empty()) entries.emplace_back(table_key, fmt::format("{}", fmt::join(panel.table, " ")));
+    if (!panel.correction.empty()) entries.emplace_back(correction_key, panel.correction);
+}
+
+PanelLevels panel_of(const Metadata& entries) {
+    PanelLevels panel;
+    if (const std::string* const flip = find_text(entries, flip_key)) {
+        panel.flipped_x = *flip == "horizontal" || *flip == "both";
+        panel.flipped_y = *flip == "vertical" || *flip == "both";
+    }
+    if (const std::string* const correction = find_text(entries, correction_key)) panel.correction = *correction;
+    const std::string* const table = find_text(entries, table_key);
+    if (table == nullptr) return panel;
+    const char *at = table->data(), *const end = table->data() + table->size();
+    for (std::from_chars_result read{}; at < end; at = read.ptr + 1) {
+        read = std::from_chars(at, end, panel.table.emplace_back());
+        if (read.ec != std::errc()) panel.table.back() = 0;
+    }
+    return panel;
+}
+
 }  // namespace
 
 Metadata field_entries(const ExternalField& description, std::span<const double> wavelengths) {
@@ -47,6 +75,7 @@ Metadata field_entries(const ExternalField& description, std::span<const double>
         entries.emplace_back(values_key, phases ? "phase" : "amplitude");
     if (phases && description.phase_code)
         entries.emplace_back(phase_code_key, phase_code_text(*description.phase_code));
+    add_panel(description.panel, entries);
     if (description.largest > 255) entries.emplace_back(largest_key, fmt::format("{}", description.largest));
     return entries;
 }
@@ -61,6 +90,7 @@ void io::arrays::take_entries(const Metadata& entries, ExternalFacts& facts) {
     const std::string* const values = find_text(entries, values_key);
     if (values == nullptr || (*values != "phase" && *values != "amplitude")) return;
     facts.values = *values;
+    facts.panel = panel_of(entries);
     if (const double largest = positive_number(entries, largest_key); largest >= 1 && largest <= 65535)
         facts.largest = static_cast<std::size_t>(largest);
     const std::string* const code = find_text(entries, phase_code_key);

@@ -75,6 +75,42 @@ void take_texts(const std::filesystem::path& path, const ExternalField& descript
     facts.phase_code = phase_facts.phase_code;
 }
 
+// Returns the level of each number that a table sends: the nearest, where it sends others.
+std::vector<float> inverse_of(const std::vector<std::uint16_t>& table, std::size_t largest) {
+    std::vector<std::size_t> nearest(largest + 1, table.size());  // index of the table by number; its size: none
+    for (std::size_t i = table.size(); i-- > 0;) nearest[std::min<std::size_t>(table[i], largest)] = i;
+    const auto fill = [&](std::size_t number, std::size_t neighbour) {
+        const auto distance = [&](std::size_t index) {
+            return std::abs(static_cast<double>(table[index]) - static_cast<double>(number));
+        };
+        const std::size_t other = nearest[neighbour];
+        if (other < table.size() && (nearest[number] == table.size() || distance(other) < distance(nearest[number])))
+            nearest[number] = other;
+    };
+    for (std::size_t number = 1; number <= largest; ++number) fill(number, number - 1);
+    for (std::size_t number = largest; number-- > 0;) fill(number, number + 1);
+    return {nearest.begin(), nearest.end()};
+}
+
+// Undoes the order and the numbers of a panel.
+void undo_panel(const PanelLevels& panel, std::size_t largest, const std::filesystem::path& path,
+                RawChannels& picture) {
+    Array<float, 3>& values = picture.values;
+    if (panel.flipped_y)
+        for (std::size_t y = 0; y < values.extent(0) / 2; ++y)
+            std::ranges::swap_ranges(values[y].elements(), values[values.extent(0) - 1 - y].elements());
+    for (std::size_t y = 0; panel.flipped_x && y < values.extent(0); ++y)
+        for (std::size_t x = 0; x < values.extent(1) / 2; ++x)
+            std::ranges::swap_ranges(values[y][x].elements(), values[y][values.extent(1) - 1 - x].elements());
+    if (panel.table.empty()) return;
+    if (panel.table.size() != largest + 1)
+        fail_external(
+            path, fmt::format("its level table has {} levels, but its numbers {}", panel.table.size(), largest + 1));
+    const std::vector<float> levels = inverse_of(panel.table, largest);
+    for (float& value : values.elements())
+        value = levels[std::min(static_cast<std::size_t>(std::max(value, 0.0f)), largest)];
+}
+
 }  // namespace
 
 bool is_picture_field(const std::filesystem::path& path) {
@@ -101,7 +137,8 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     if (description.zero && description.imaginary.empty())
         throw Error(ErrorCode::usage, "zero",
                     fmt::format("'{}': a zero level applies to real and imaginary parts only", path.string()));
-    const RawChannels first = read_raw_channels(path), second = two ? read_raw_channels(second_path) : first;
+    RawChannels first = read_raw_channels(path);
+    const RawChannels second = two ? read_raw_channels(second_path) : first;
     if (second.values.extent(0) != first.values.extent(0) || second.values.extent(1) != first.values.extent(1))
         fail_external(second_path, fmt::format("it has {}x{} pixels, but '{}' has {}x{}", second.values.extent(1),
                                                second.values.extent(0), path.string(), first.values.extent(1),
@@ -117,6 +154,7 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     const std::size_t said = two ? 0 : description.largest > 0 ? description.largest : facts.largest;
     const std::size_t largest = largest_of(two ? second : first, said);
     convert.set_largest_phase(largest);
+    if (!two) undo_panel(facts.panel, largest, path, first);
     auto field = std::make_unique<Field>(external_grid(path, description, facts));
     const std::size_t channels[2] = {first.values.extent(2), second.values.extent(2)};
     const std::size_t colour[2] = {channels[0] == 1 ? 0 : description.colour,
