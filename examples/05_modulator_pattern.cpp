@@ -22,7 +22,7 @@ int main() {
     const auto field = make_hologram(light_field, options);
 
     const Pattern pattern = encode_pattern(*field, {.encoding = Encoding::double_phase, .modulator = modulator});
-    write_patterns("pattern.png", {&pattern, 1});
+    write_levels("pattern.png", joined_levels({&pattern, 1}));
     std::printf("pattern.png: %zu x %zu levels, efficiency %.1f %%\n", modulator.width, modulator.height,
                 100 * pattern.efficiency);
 }

@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "hogel/communicator.h"
-#include "hogel/image.h"
+#include "hogel/files.h"
 #include "hogel/pattern.h"
 #include "hogel/pipeline.h"
 #include "hogel/requests.h"
@@ -111,10 +111,12 @@ Result result_of(const PupilQuality& quality) {
             {"efficiency", quality.efficiency}};
 }
 
-void require_colours(const Fields& fields, const std::string& input) {
+// Throws an error for a number of wavelengths that a pattern, or the file of it, does not take.
+void require_colours(const Options& options, const Fields& fields) {
     if (fields.size() != 1 && fields.size() != 3)
         throw Error(ErrorCode::bad_input,
-                    fmt::format("{}: has {} wavelengths; a pattern takes one or three", input, fields.size()));
+                    fmt::format("{}: has {} wavelengths; a pattern takes one or three", options.input, fields.size()));
+    require_levels_name(options.output, options.pattern.modulator().levels - 1, fields.size());
 }
 
 Encoded encode_hologram(Options& options, const Session& session) {
@@ -127,7 +129,7 @@ Encoded encode_hologram(Options& options, const Session& session) {
     options.field.wavelengths = options.hologram.wavelengths;
     Encoded encoded{open_and_reconstruct(session, options.input, options.field), {}};
     options.hologram.resolve(options.field);
-    require_colours(encoded.fields, options.input);
+    require_colours(options, encoded.fields);
     Stage stage(session, "pattern");
     encoded.patterns = options.pattern.encode(encoded.fields, stage.progress());
     return encoded;
@@ -145,7 +147,7 @@ Encoded encode_light_field(Options& options, InputKind kind, const Session& sess
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
     options.hologram.resolve(request, light_field.grid());
     Encoded encoded{make_holograms(light_field, request), {}};
-    require_colours(encoded.fields, options.input);
+    require_colours(options, encoded.fields);
     Stage stage(session, "pattern");
     encoded.patterns = options.pattern.encode(encoded.fields, light_field, request, stage.progress());
     return encoded;
@@ -157,13 +159,13 @@ void write_files(const Options& options, const SuitablePatterns& patterns, std::
     const std::span<const Pattern> all = patterns.patterns;
     const std::size_t frames = all.size() / colours;
     for (std::size_t frame = 0; frame < frames; ++frame)
-        write_patterns(frames == 1 ? std::filesystem::path(options.output) : numbered(options.output, frame),
-                       all.subspan(frame * colours, colours), metadata);
+        write_levels(frames == 1 ? std::filesystem::path(options.output) : numbered(options.output, frame),
+                     joined_levels(all.subspan(frame * colours, colours)), all[0].largest_level, metadata);
 }
 
 int slm(Options& options, const Session& session) {
     const Modulator modulator = options.pattern.options().modulator;
-    require_raw_pixels_name(options.output, modulator.levels);
+    require_levels_name(options.output, modulator.levels - 1);
     const std::size_t frames = options.pattern.looks();
     if (frames > 1 && !is_numbered(options.output))
         throw Error(ErrorCode::usage, "output",
@@ -230,8 +232,10 @@ void add_slm(Command& command, Session& session) {
                        "Hologram, light field, mesh file, built-in scene, or another program's field");
     command
         .text("-o,--output", options->output, "FILE",
-              "Pattern to write, levels without colour management: .png or .bmp of 8 bits; .png of 16 bits for more "
-              "than 256 levels, with the numbers 0 to levels - 1")
+              "Pattern to write, levels without colour management:\n"
+              ".png, .bmp: 8 bits; .png of 16 bits for more than 256 levels, with the numbers 0 to levels - 1\n"
+              ".npy: array of NumPy, [y][x] or [wavelength][y][x]\n"
+              ".h5: as slmsuite's SLM.save_phase() writes it, of one wavelength")
         .required()
         .never_acts();
     add_resume_flag(command, options->resume);

@@ -187,6 +187,20 @@ HOGEL_API void require_fields_name(const std::filesystem::path& path);
 HOGEL_API void write_fields(const std::filesystem::path& path, std::span<const Field> fields,
                             const Metadata& metadata = {});
 
+/// Throws Error(usage) or Error(not_built_in) if write_levels() would refuse the extension of this name.
+HOGEL_API void require_levels_name(const std::filesystem::path& path, std::size_t largest = 255,
+                                   std::size_t channels = 1);
+
+/// Writes drive levels of a modulator, levels[y][x][c], of 8 bits if `largest`, the largest level, is at most 255, else
+/// of
+/// 16. The file appears under its name when it is complete. Throws Error(usage), Error(not_built_in) and
+/// Error(cannot_write).
+/// - pictures: as write_raw_pixels()
+/// - .npy: an array [y][x], or [c][y][x] of several channels
+/// - .h5: as SLM.save_phase() of slmsuite, for one channel: `display` is the levels, `phase` those in its phase code
+HOGEL_API void write_levels(const std::filesystem::path& path, View<const std::uint16_t, 3> levels,
+                            std::size_t largest = 255, const Metadata& metadata = {});
+
 /// Writes samples[y][x] as a complex64 array in NumPy's format. The file appears under its name when it is complete.
 /// Throws Error(cannot_write).
 HOGEL_API void write_npy(const std::filesystem::path& path, View<const std::complex<float>, 2> samples);

@@ -231,10 +231,9 @@ HOGEL_API Array<std::uint16_t, 2> panel_levels(const Pattern& pattern, const Pat
 /// separated by a comma, a semicolon or blanks. Text after # is a comment. Throws Error(bad_input), with the line.
 HOGEL_API std::vector<std::uint16_t> read_level_table(const std::filesystem::path& path);
 
-/// Writes the levels of patterns, one or three, as the channels of a picture by write_raw_pixels(): of 8 bits if
-/// largest_level is 255, otherwise of 16. Throws as write_raw_pixels() does.
-HOGEL_API void write_patterns(const std::filesystem::path& path, std::span<const Pattern> patterns,
-                              const Metadata& metadata = {});
+/// Returns the levels of patterns of one modulator, [y][x][pattern], for write_levels(). Throws Error(usage) if they
+/// differ in size.
+HOGEL_API Array<std::uint16_t, 3> joined_levels(std::span<const Pattern> patterns);
 
 /// Returns the complex transmission of a pattern, [y][x]: e^{2πi v} for phases or v for amplitudes, with v the values
 /// rounded to levels. It is the field behind the modulator in a uniform laser beam.

@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "core.h"
 #include "hogel/field.h"
+#include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/phase_code.h"
 #include "keywords.h"
@@ -92,14 +93,6 @@ py::tuple numbers_of(Raw&& raw, Values Raw::*values, std::size_t largest) {
     return py::make_tuple(array_of(std::move(raw.*values)), largest);
 }
 
-template <class T>
-void write_pixels(const std::filesystem::path& path, const py::array_t<T, py::array::c_style>& levels,
-                  const py::object& metadata) {
-    const Metadata entries = metadata_of(metadata);
-    const View<const T, 3> view(levels.data(), shape_of<3>(levels, "levels"));
-    run(py::none(), [&](const Progress&) { write_raw_pixels(path, view, entries); });
-}
-
 // Levels as numbers of 8 bits, if these hold them.
 py::object narrowed(Array<std::uint16_t, 2>&& levels, unsigned largest) {
     if (largest > 255) return array_of(std::move(levels));
@@ -111,15 +104,15 @@ py::object narrowed(Array<std::uint16_t, 2>&& levels, unsigned largest) {
 
 void add_raw_pixels(py::module_& module) {
     module.def(
-        "write_raw_pixels",
-        [](const std::filesystem::path& path, const py::array& levels, const py::object& metadata) {
-            if (levels.dtype().kind() == 'u' && levels.itemsize() == 2)
-                write_pixels<std::uint16_t>(path, levels, metadata);
-            else
-                write_pixels<std::uint8_t>(path, levels, metadata);
+        "write_levels",
+        [](const std::filesystem::path& path, const py::array_t<std::uint16_t, py::array::c_style>& levels,
+           std::size_t largest, const py::object& metadata) {
+            const Metadata entries = metadata_of(metadata);
+            const View<const std::uint16_t, 3> view(levels.data(), shape_of<3>(levels, "levels"));
+            run(py::none(), [&](const Progress&) { write_levels(path, view, largest, entries); });
         },
-        arg("path"), arg("levels"), arg("metadata"));
-    module.def("require_raw_pixels_name", &require_raw_pixels_name, arg("path"), arg("levels") = 256);
+        arg("path"), arg("levels"), arg("largest"), arg("metadata"));
+    module.def("require_levels_name", &require_levels_name, arg("path"), arg("largest") = 255, arg("channels") = 1);
     module.def(
         "read_raw_pixels",
         [](const std::filesystem::path& path) {

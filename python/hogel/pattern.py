@@ -81,8 +81,9 @@ class Pattern:
         return _core.transmission(self._parts[number], _core.encoding(self.encoding))
 
     def save(self, path: Union[str, "os.PathLike[str]"], *, metadata: Any = None) -> None:
-        """Writes the levels without conversion: as 8-bit .png or .bmp, or as 16-bit .png for more than 256 levels. A .png stores
-        pitch, wavelength and phase code, so hogel opens it without options.
+        """Writes the levels without conversion: as .png or .bmp, 8-bit, or 16-bit .png for more than 256 levels; as an array of
+        NumPy, .npy; or as slmsuite's SLM.save_phase(), .h5, for one wavelength. A .png stores pitch, wavelength and phase
+        code, so hogel opens it without options.
 
         >>> import hogel, numpy as np, os, tempfile
         >>> wave = hogel.Field.from_array(np.ones((32, 32), np.complex64), pitch="8um", wavelength="532nm")
@@ -91,14 +92,15 @@ class Pattern:
         """
         name = os.fspath(path)
         entries = self._entries if metadata is None else metadata
+        largest = self._parts[0].largest_level
         if self.levels.ndim == 3:
             _core.require_writable(name)
-            _core.write_raw_pixels(name, self.levels, entries)
+            _core.write_levels(name, self.levels, largest, entries)
             return
         if "#" not in os.path.basename(name):
             raise UsageError(f"save: {name}: expected name####.png for {len(self.levels)} patterns")
         for frame, levels in enumerate(self.levels):
-            _core.write_raw_pixels(numbered(name, frame), levels, entries)
+            _core.write_levels(numbered(name, frame), levels, largest, entries)
 
     def __repr__(self) -> str:
         m = self.modulator

@@ -317,7 +317,7 @@ class SameBytes(InFolder):
         np.save("wave.npy", noise[0] + 1j * noise[1])
         np.save("phase.npy", noise[0])
         levels = (127.5 + 40 * noise[0]).clip(0, 255).astype(np.uint8)[..., None]
-        hogel._core.write_raw_pixels("levels.png", np.ascontiguousarray(levels), None)
+        hogel._core.write_levels("levels.png", np.ascontiguousarray(levels), 255, None)
         sampling = (["--pitch", "4um", "--wavelength", "532nm"], dict(pitch="4um", wavelength=532 * nm))
         cases = [
             ("wave.npy", [], {}),

@@ -21,6 +21,7 @@ namespace io::hdf5 {
 
 FileKind kind_of(const std::filesystem::path& path) { refuse(path); }
 void summarize(const std::filesystem::path& path, FileSummary&) { refuse(path); }
+void write_slmsuite_file(const std::filesystem::path& path, View<const std::uint16_t, 2>, std::size_t) { refuse(path); }
 // Called for any file that is not compressed: report other errors first.
 LightField open_light_field(const std::filesystem::path& path) {
     is_hdf5(path);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
-#include "hogel/image.h"
 #include "hogel/pattern.h"
 #include "hogel/patterns/pattern_parts.h"
 #include "hogel/work/ordered_reduce.h"
@@ -98,30 +95,15 @@ std::vector<SupervisedPatterns> encode_supervised(std::span<const std::shared_pt
         });
 }
 
-namespace {
-
-template <class T>
-Array<T, 3> channels_of(std::span<const Pattern> patterns) {
-    const Shape<2>& shape = patterns[0].levels.shape();
-    Array<T, 3> levels({shape[0], shape[1], patterns.size()});
-    for (std::size_t c = 0; c < patterns.size(); ++c)
+Array<std::uint16_t, 3> joined_levels(std::span<const Pattern> patterns) {
+    const Shape<2> shape = patterns.empty() ? Shape<2>{} : patterns[0].levels.shape();
+    Array<std::uint16_t, 3> joined({shape[0], shape[1], patterns.size()});
+    for (std::size_t c = 0; c < patterns.size(); ++c) {
+        if (patterns[c].levels.shape() != shape) throw Error(ErrorCode::usage, "patterns of one modulator are needed");
         for (std::size_t i = 0; i < patterns[c].levels.size(); ++i)
-            levels.data()[i * patterns.size() + c] = static_cast<T>(patterns[c].levels.data()[i]);
-    return levels;
-}
-
-}  // namespace
-
-void write_patterns(const std::filesystem::path& path, std::span<const Pattern> patterns, const Metadata& metadata) {
-    if (patterns.empty() || std::ranges::any_of(patterns, [&](const Pattern& pattern) {
-            return pattern.levels.shape() != patterns[0].levels.shape() ||
-                   pattern.largest_level != patterns[0].largest_level;
-        }))
-        throw Error(ErrorCode::usage, "patterns of one modulator are needed");
-    if (patterns[0].largest_level > 255)
-        write_raw_pixels(path, channels_of<std::uint16_t>(patterns), metadata);
-    else
-        write_raw_pixels(path, channels_of<std::uint8_t>(patterns), metadata);
+            joined.data()[i * patterns.size() + c] = patterns[c].levels.data()[i];
+    }
+    return joined;
 }
 
 SuitablePatterns encode_suitably(std::span<const std::shared_ptr<const FieldSource>> fields,

@@ -19,6 +19,9 @@ FileKind kind_of(const std::filesystem::path& path);
 /// Adds the facts about a light field or a hologram to a summary. Throws Error(bad_input).
 void summarize(const std::filesystem::path& path, FileSummary& summary);
 
+/// Writes levels, [y][x] of 0 to `largest`, as SLM.save_phase() of slmsuite does. Throws Error(cannot_write).
+void write_slmsuite_file(const std::filesystem::path& path, View<const std::uint16_t, 2> levels, std::size_t largest);
+
 /// Opens the faces of a light field, the front first. Throws Error(bad_input).
 LightField open_light_field(const std::filesystem::path& path);
 
