@@ -44,7 +44,7 @@ void add_bake(Command& command, Session& session) {
         "  hogel bake church -o church.glb\n"
         "  hogel render church.glb -o church.h5 --as-is --shading given");
     command.basics({"rays", "bounces", "size", "rotate", "light", "scale", "move", "up", "ground"});
-    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.positional("scene", options->scene, "SCENE", "Picture, mesh file or built-in scene");
     command.text("-o,--output", options->output, "FILE", "Mesh to write, with the radiance of every vertex: .glb")
         .required()
         .never_acts();

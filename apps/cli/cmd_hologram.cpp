@@ -132,7 +132,7 @@ void add_hologram(Command& command, Session& session) {
         "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm");
     command.basics(
         {"wavelength", "pitch", "method", "phase", "hogels", "directions", "size", "fov", "rotate", "light"});
-    command.positional("input", options->input, "X.h5|SCENE", "Light field, mesh file or built-in scene");
+    command.positional("input", options->input, "X.h5|SCENE", "Light field, picture, mesh file or built-in scene");
     command.text("-o,--output", options->output, "FILE", "Hologram to write, HDF5").required().never_acts();
     command.flag("--half", options->half, "Store 16-bit floats rather than 32-bit ones");
     add_resume_flag(command, options->resume);

@@ -250,7 +250,7 @@ void add_make(Command& command, Session& session) {
         "  hogel make bunny.ply -o bunny --hogels 128x128 --size 8mm --looks 4");
     command.basics(
         {"hogels", "directions", "size", "fov", "rotate", "light", "pupil", "eye-distance", "resolution", "looks"});
-    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene").acts_if([options] {
+    command.positional("scene", options->scene, "SCENE", "Picture, mesh file or built-in scene").acts_if([options] {
         return options->make.is_one_of({MakeParameters::Output::light_field});
     });
     command.text("-o,--output", options->output, "DIR", "Folder for all outputs").required().never_acts();

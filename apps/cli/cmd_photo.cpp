@@ -190,7 +190,9 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 
 int photo(Options& options, const Session& session) {
     const double requested_exposure = options.photo.exposure == "auto" ? 0 : parse_exposure(options.photo.exposure);
-    options.field.require_described(options.input);
+    const Command& given = *session.command;
+    if (given.given("--pitch") && !given.given("--wave") && !given.given("--like"))
+        options.field.require_described(options.input);
     const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
     if (options.photo.view.frames > 1)
         with_parameter("frames", [&] { require_movie(options.output); });
@@ -221,7 +223,7 @@ void add_photo(Command& command, Session& session) {
         "  hogel photo phase.png -o p.png --phase-code slmsuite --pitch 8um --wavelength 532nm");
     command.basics({"eye", "gaze", "focus", "pupil", "resolution", "looks", "exposure", "camera", "wave", "frames"});
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
-                       "Hologram, light field, mesh file, built-in scene, another program's field or picture");
+                       "Hologram, light field, picture, mesh file, built-in scene, or another program's field");
     command.text("-o,--output", options->output, "FILE", "Picture to write: .png (sRGB) or .exr (linear)")
         .required()
         .never_acts();

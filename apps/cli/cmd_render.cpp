@@ -121,7 +121,7 @@ void add_render(Command& command, Session& session) {
         "  hogel render tower -o all.h5 --hemicube --directions 128x128\n"
         "  hogel render pumpkin -o pumpkin.hgl --sqnr 35");
     command.basics({"hogels", "directions", "size", "fov", "algorithm", "shading", "rotate", "light", "depth", "sqnr"});
-    command.positional("scene", options->scene, "SCENE", "Mesh file or built-in scene");
+    command.positional("scene", options->scene, "SCENE", "Picture, mesh file or built-in scene");
     add_light_field_output(command, options->output, "Store the depth of every ray too",
                            "Store 32-bit floats rather than 16-bit ones");
     add_resume_flag(command, options->resume);

@@ -123,7 +123,7 @@ struct CommandLine::Impl {
         app.require_subcommand(1);
         app.footer(
             "Lengths and angles have units: 16mm, 1.6um, 633nm, 20deg.\n"
-            "SCENE is a mesh file (glTF, OBJ, PLY, STL and more) or the name of a built-in scene;\n"
+            "SCENE is a mesh file (glTF, OBJ, PLY, STL and more), a picture or the name of a built-in scene;\n"
             "depths are positive behind the hologram and negative in front of it.\n"
             "'hogel help COMMAND' explains a command.\n"
             "\n"

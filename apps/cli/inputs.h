@@ -17,7 +17,8 @@ namespace hogel::cli {
 
 // These functions resolve the options: they set chosen values and the conditions under which options act.
 
-/// Loads a built-in scene in the size of the hologram, or a mesh file, fitted to it if requested, with lights.
+/// Loads a built-in scene in the size of the hologram, a mesh file or a picture, fitted to it if requested, with
+/// lights.
 Scene load_scene(const Session& session, const std::string& name, LightFieldParameters& options);
 
 /// Shades the scene. With --verbose prints the memory of shadow maps.

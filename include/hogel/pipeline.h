@@ -84,10 +84,10 @@ struct HOGEL_API LightFieldRequest {
     bool hemicube = false;  ///< all faces around `grid`, see hemicube()
     SamplesPerRay samples;
     bool cull_back_faces = false;
-    bool fit = true;                ///< whether a mesh file is scaled and moved to fill the hologram
+    bool fit = true;                ///< whether a mesh file is scaled and moved to fill the hologram; true for pictures
     double front = defaults.front;  ///< fraction of a fitted mesh's depth in front of the plane, see Fit
     ScenePose pose;                 ///< orientation, position, colours and lights of the scene
-    ImportOptions import;           ///< for a mesh file
+    ImportOptions import;           ///< for a file
     /// Full angles that the faces of a hemicube span, radians.
     double hemicube_across = std::numbers::pi, hemicube_down = std::numbers::pi;
     /// Side of the regions of hogels with interpolated shading, see make_interpolating_renderer(); 0: every sample is
@@ -116,8 +116,8 @@ struct HologramRequest {
     }
 };
 
-/// Kinds of inputs. A scene is a built-in name or a mesh file. A light field is a file, or a set of views (folder or
-/// file) that a layout recognises. A hologram is a file.
+/// Kinds of inputs. A scene is a built-in name, a mesh file, or a picture that is no field (is_external_field()). A
+/// light field is a file, or a set of views (folder or file) that a layout recognises. A hologram is a file.
 enum class InputKind { scene, light_field, hologram };
 
 /// Returns the kind of the input of this name. Throws Error(usage) for an unknown name, with the nearest existing name,
@@ -137,12 +137,13 @@ HOGEL_API LightField open_for_holograms(const std::filesystem::path& path, Holog
                                         bool any_transform);
 
 /// Makes the built-in scene of this name for the size of the request's hologram and applies the pose, or reads a mesh
-/// file and calls prepare_scene(). Throws Error(usage) for an unknown name, Error(bad_input) for a missing file, and as
-/// import_scene(), turn_scene() and place_scene() do.
+/// or picture file and calls prepare_scene(). Throws Error(usage) for an unknown name, Error(bad_input) for a missing
+/// file, and as import_scene(), turn_scene() and place_scene() do.
 HOGEL_API Scene load_scene(const std::string& name, const LightFieldRequest& request, const Progress& progress = {});
 
 /// Prepares a scene in memory, such as one from import_scene(): turns it, fits it if request.fit, adds lights if it has
-/// none, and places it. Throws as turn_scene(), fit_scene() and place_scene() do.
+/// none, and places it. A picture fills the hologram's width or height and is then turned about its middle
+/// (SceneUnits). Throws as turn_scene(), fit_scene() and place_scene() do.
 HOGEL_API Scene prepare_scene(Scene scene, const LightFieldRequest& request);
 
 /// Shades a scene for renderers, and adds a radiance cache that suits the request's rays.
@@ -292,16 +293,16 @@ HOGEL_API Plan plan_photographs(std::span<const LightFieldGrid> faces, const Hol
 /// Throws Error(usage), with the numbers, if `what` exceeds the free memory, or the free disk space at `file`.
 HOGEL_API void require_resources(const Plan& plan, const std::string& what, const std::filesystem::path& file = {});
 
-/// A scene that has not been placed at a hologram, for programs that place and light it repeatedly. A mesh file is read
+/// A scene that has not been placed at a hologram, for programs that place and light it repeatedly. A file is read
 /// once; a built-in scene is made again only for another size. Not thread-safe.
 class HOGEL_API SceneModel {
   public:
-    /// Reads a mesh file. Throws as load_scene() does.
+    /// Reads a mesh or picture file. Throws as load_scene() does.
     explicit SceneModel(std::string name, const ImportOptions& options = {}, const Progress& progress = {});
 
-    /// Returns whether it is from a mesh file; only then LightFieldRequest::fit and LightFieldRequest::front have an
-    /// effect.
-    bool is_file() const { return imported_.has_value(); }
+    /// Returns whether it is from a file, and not a picture at its own depths; only then LightFieldRequest::fit and
+    /// LightFieldRequest::front have an effect.
+    bool is_file() const { return imported_ && imported_->units != SceneUnits::depths; }
     /// Returns the scene of load_scene() for this request, with the constructor's `import` options. Throws as
     /// load_scene().
     Scene placed(const LightFieldRequest& request, const Progress& progress = {});

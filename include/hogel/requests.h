@@ -41,7 +41,12 @@ struct HOGEL_API SceneParameters {
     std::vector<std::string> lights;
     std::string texture;    ///< file name of a picture
     double point_size = 1;  ///< 1: discs that just close the surface
+    std::string depth_map;  ///< file name of the depth map of a picture
+    std::string depth_values = "nearness";
+    std::optional<double> near, far;  ///< depths of that map, metres
 
+    /// Returns the options of import_scene().
+    ImportOptions import_options() const;
     /// Returns the pose with its lights and picture. Throws Error(usage) for a malformed light, and as read_image().
     ScenePose complete_pose() const;
     /// Stores the facts of the loaded scene.
@@ -51,7 +56,7 @@ struct HOGEL_API SceneParameters {
 
     // Set by resolve().
     bool is_loaded = false;
-    bool is_file = false;  ///< false: a built-in scene
+    bool is_file = false;  ///< a file whose depth the front places; false: a built-in scene or a picture at its depths
     bool is_lit = false, has_points = false;
     bool has_background = true;
 };

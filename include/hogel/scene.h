@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hogel/array.h"
 #include "hogel/export.h"
 #include "hogel/geometry.h"
 #include "hogel/image.h"
@@ -126,15 +127,23 @@ struct SceneCamera {
     double nearest = 0;   ///< near clipping distance
 };
 
+/// Units of a scene's coordinates until prepare_scene() places the scene at a hologram.
+enum class SceneUnits : std::uint8_t {
+    any,             ///< of a shape, which is moved and scaled as a whole
+    picture_widths,  ///< of a picture, which fills the hologram; z is scaled as x and y are
+    depths           ///< of a picture; z is in metres from the hologram plane, and only x and y are scaled
+};
+
 /// Surfaces, lights and background of a scene.
 struct Scene {
-    std::string name;                  ///< for messages and files
-    std::vector<Mesh> meshes;          ///< in any order
-    std::vector<Light> lights;         ///< in any order
-    Rgb ambient{0, 0, 0};              ///< radiance from all directions, unshadowed
-    Rgb background{0, 0, 0};           ///< radiance of rays that meet nothing
-    std::vector<SceneCamera> cameras;  ///< of its file; see frame_scene()
-    Vec3 up{0, 1, 0};                  ///< upward axis in its file, for turn_scene()
+    std::string name;                    ///< for messages and files
+    std::vector<Mesh> meshes;            ///< in any order
+    std::vector<Light> lights;           ///< in any order
+    Rgb ambient{0, 0, 0};                ///< radiance from all directions, unshadowed
+    Rgb background{0, 0, 0};             ///< radiance of rays that meet nothing
+    std::vector<SceneCamera> cameras;    ///< of its file; see frame_scene()
+    Vec3 up{0, 1, 0};                    ///< upward axis in its file, for turn_scene()
+    SceneUnits units = SceneUnits::any;  ///< of the coordinates
     /// Whether most of the surface is triangles so large that shadows fall between their corners; set by
     /// prepare_scene(). The shading model `auto` then selects `direct`.
     bool has_large_triangles = false;
@@ -184,13 +193,46 @@ HOGEL_API Scene make_scene(std::string_view name, double hologram_size, const Pr
 /// Name of the mesh of discs that represents a point cloud.
 inline constexpr std::string_view points_name = "points";
 
+/// Meaning of the values of a depth map.
+enum class DepthValues : std::uint8_t {
+    nearness,  ///< the largest value is the nearest; depth is linear in the value
+    distance,  ///< the largest value is the farthest; depth is linear in the value
+    disparity  ///< the largest value is the nearest; the reciprocal of the distance from the viewpoint is linear in it
+};
+
+/// Depths of a depth map. Depth is positive behind the hologram (docs/notation.md).
+struct DepthMapOptions {
+    DepthValues values = DepthValues::nearness;
+    /// Depths of the nearest and the farthest value in the map, metres; both or none. Without them the depth range is a
+    /// quarter of the picture's width, and LightFieldRequest::front places it.
+    std::optional<double> near = {}, far = {};
+    double viewpoint = 0.3;  ///< distance of the viewpoint in front of the hologram for disparities, metres
+};
+
+/// Returns the scene of a picture: a rectangle whose radiance is the picture, one unit wide at z = 0. The picture has
+/// one, three or, with alpha, four channels. Radiances that are negative or not finite become 0. Throws
+/// Error(bad_input) for an empty picture.
+HOGEL_API Scene scene_of_picture(Image picture);
+
+/// Returns the scene of a picture with a depth map of any size: a surface whose picture, seen from infinity, is the
+/// picture. Values that are not finite or at least 10⁹ are farthest. The surface is cut where neighbouring values
+/// differ by more than 1/20 of the map's range; behind such an edge the farther surface continues. The map is read at
+/// no more than 2^20 points. Throws Error(bad_input) for an empty picture, and for a map that is empty or of another
+/// aspect ratio (by more than 5 %), and Error(usage) for invalid options.
+HOGEL_API Scene scene_of_picture(Image picture, View<const float, 2> depth_map, const DepthMapOptions& options = {});
+
 /// Options of import_scene().
 struct ImportOptions {
     /// Size of the discs of a point cloud, relative to discs that just close the surface.
     double point_size = 1;
+    std::filesystem::path depth_map = {};  ///< picture of the depths of a picture file; empty: none
+    DepthMapOptions depths = {};           ///< of that map
 };
 
-/// Reads a mesh file with assimp (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base colours
+/// Reads a picture file (read_image()) as scene_of_picture() does, with its alpha (PNG, TGA, WebP), or a mesh file.
+/// Throws Error(usage) for a depth map with a mesh file, and Error(bad_input) for a coloured depth map.
+///
+/// Reads mesh files with assimp (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base colours
 /// and base-colour textures, and glTF's materials and lights. All node transforms are applied; units and axes are those
 /// of the file. Points of a point cloud (PLY without faces, XYZ) become discs. The colour of an unlit material becomes
 /// given radiance. Missing normals are added. Scene::notes lists contents that are not shown. For a scene without

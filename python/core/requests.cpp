@@ -126,6 +126,10 @@ void add_keywords(py::module_& module) {
         "scene_pose",
         [](const py::dict& keywords) { return Keywords<SceneParameters>(keywords).values.complete_pose(); },
         arg("keywords"));
+    module.def(
+        "scene_import_options",
+        [](const py::dict& keywords) { return Keywords<SceneParameters>(keywords).values.import_options(); },
+        arg("keywords"));
     module.def("light_field_keywords", [] {
         const LightFieldKeywords none{py::dict()};
         return described(none.table, [](const Parameter& each) { return each.group != "Scene" && each.name != "fit"; });

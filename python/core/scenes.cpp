@@ -65,7 +65,25 @@ void add_scene_class(py::module_& module) {
     add_vector(pose, "shift", &ScenePose::shift);
 }
 
+void add_pictures(py::module_& module) {
+    py::class_<ImportOptions>(module, "ImportOptions");
+    module.def(
+        "scene_of_picture",
+        [](const Image& picture,
+           const std::optional<py::array_t<float, py::array::c_style | py::array::forcecast>>& map,
+           const ImportOptions& options) {
+            return run_for(py::none(), [&](const Progress&) {
+                if (!map) return scene_of_picture(picture);
+                if (map->ndim() != 2) throw Error(ErrorCode::usage, "depth_map", "expected an array of two axes");
+                const Shape<2> shape{static_cast<std::size_t>(map->shape(0)), static_cast<std::size_t>(map->shape(1))};
+                return scene_of_picture(picture, View<const float, 2>(map->data(), shape), options.depths);
+            });
+        },
+        arg("picture"), arg("depth_map"), arg("options"));
+}
+
 void add_scene_functions(py::module_& module) {
+    add_pictures(module);
     module.def("scenes", [] {
         std::vector<std::pair<std::string, std::string>> rows;
         for (const SceneInfo& scene : scenes().rows()) rows.emplace_back(scene.name, scene.text);
@@ -88,10 +106,10 @@ void add_scene_functions(py::module_& module) {
         arg("scene"), arg("camera"), arg("width"), arg("height"), arg("front") = 0.0);
     module.def(
         "import_scene",
-        [](const std::filesystem::path& path, double point_size, const py::object& report) {
-            return run_for(report, [&](const Progress& p) { return import_scene(path, p, {point_size}); });
+        [](const std::filesystem::path& path, const ImportOptions& options, const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return import_scene(path, p, options); });
         },
-        arg("path"), arg("point_size"), arg("report"));
+        arg("path"), arg("options"), arg("report"));
     module.def(
         "load_scene",
         [](const std::string& name, const LightFieldRequest& request, const py::object& report) {
@@ -178,9 +196,6 @@ void add_scenes(py::module_& module) {
         .def_readwrite("hemicube_across", &LightFieldRequest::hemicube_across)
         .def_readwrite("hemicube_down", &LightFieldRequest::hemicube_down)
         .def_readwrite("interpolate", &LightFieldRequest::interpolate)
-        .def_property(
-            "point_size", [](const LightFieldRequest& r) { return r.import.point_size; },
-            [](LightFieldRequest& r, double size) { r.import.point_size = size; })
         .def("grids", &LightFieldRequest::grids);
     add_scene_functions(module);
     add_lighting(module);

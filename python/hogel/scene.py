@@ -14,6 +14,7 @@ from ._progress import Progress, reporting
 from .errors import BadInputError, UsageError, usage_error
 from .hologram import Hologram
 from .light_field import LightField
+from .picture import Picture
 from .requests import request
 
 #: Custom renderers by name: see add_renderer().
@@ -36,7 +37,7 @@ def add_renderer(name: str, renderer: Callable[..., Any]) -> None:
 
 
 class Scene:
-    """Scene of surfaces and lights: a built-in scene, a mesh file, or meshes from arrays.
+    """Scene of surfaces and lights: a built-in scene, a mesh file, a picture, or meshes from arrays.
 
     >>> import hogel, numpy as np
     >>> hogel.Scene.load("pumpkin")
@@ -55,8 +56,8 @@ class Scene:
     @classmethod
     @takes(_core.scene_keywords())
     def load(cls, name: Union[str, os.PathLike[str]], *, progress: Progress = None, **options: Any) -> "Scene":
-        """Loads a built-in scene (hogel.scenes()) or reads a mesh file. The options rotate, place, colour and light it, as
-        the options of the command line do. A colour is a text or three linear numbers, `texture` a file or a Picture,
+        """Loads a built-in scene (hogel.scenes()), or reads a mesh or picture file. The options rotate, place, colour and
+        light it, and give the depths of a picture, as the options of the command line do. A colour is a text or three linear numbers, `texture` a file or a Picture,
         `light` a list of texts and hogel.light().
 
         >>> import hogel
@@ -84,9 +85,8 @@ class Scene:
             return cls(text, None, pose, made)
         if _core.input_kind(text) != _core.InputKind.scene:
             raise BadInputError(f"{text}: is not a scene")
-        size = options.get("point_size")
         with reporting(progress, "scene") as report:
-            return cls(text, _core.import_scene(text, 1.0 if size is None else float(size), report), pose, made)
+            return cls(text, _core.import_scene(text, _core.scene_import_options(options), report), pose, made)
 
     @classmethod
     def mesh(
@@ -135,6 +135,35 @@ class Scene:
         _core.validate_scene(scene)
         if normals is None and radiance is None:
             _core.add_missing_normals(scene, units.angle(crease, "crease"))
+        return cls(name, scene, _core.ScenePose())
+
+    @classmethod
+    def picture(
+        cls,
+        picture: Any,
+        depth_map: Any = None,
+        *,
+        depth_values: str = "nearness",
+        near: Optional[units.Length] = None,
+        far: Optional[units.Length] = None,
+        name: str = "picture",
+    ) -> "Scene":
+        """Creates a scene that shows a Picture, or an array [y][x] or [y][x][c] of linear radiances. With a depth map, an
+        array [y][x] of any size, its pixels lie at their depths. The other options are those of load().
+
+        >>> import hogel, numpy as np
+        >>> hogel.Scene.picture(np.ones((30, 40, 3)))
+        Scene('picture', 2 triangles)
+        >>> hogel.Scene.picture(np.ones((30, 40)), np.arange(12).reshape(3, 4), near="-2mm", far="3mm")
+        Scene('picture', 46 triangles)
+        """
+        keywords = {"depth_values": depth_values, "near": near, "far": far}
+        if depth_map is not None:
+            keywords["depth_map"] = name
+            depth_map = np.asarray(depth_map, dtype=np.float32)
+        shown = picture if isinstance(picture, Picture) else Picture(picture)
+        scene = _core.scene_of_picture(shown._image, depth_map, _core.scene_import_options(keywords))
+        scene.name = name
         return cls(name, scene, _core.ScenePose())
 
     @property

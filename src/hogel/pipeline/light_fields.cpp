@@ -80,8 +80,7 @@ InputKind input_kind(const std::string& name) {
         case FileKind::mesh:
             return InputKind::scene;
         case FileKind::picture:
-            throw Error(ErrorCode::bad_input,
-                        fmt::format("{}: is a picture; expected a scene, a light field or a hologram", name));
+            return is_external_field(name) ? InputKind::hologram : InputKind::scene;
         case FileKind::unknown:
             break;
     }
@@ -91,7 +90,8 @@ InputKind input_kind(const std::string& name) {
                 ErrorCode::bad_input,
                 fmt::format("{}: holds Gaussian splats, which are no surfaces; expected a mesh or a point cloud",
                             name));
-    throw Error(ErrorCode::bad_input, fmt::format("{}: is neither a mesh, a light field nor a hologram", name));
+    throw Error(ErrorCode::bad_input,
+                fmt::format("{}: is neither a mesh, a picture, a light field nor a hologram", name));
 }
 
 LightField open_light_field_or_views(const std::filesystem::path& path, const Progress& progress) {
@@ -152,8 +152,35 @@ void note_gloss(Scene& scene, const ShadingOptions& options) {
                         scene.meshes.size()));
 }
 
+/// Returns the place of a depth for a note.
+std::string place_of(double depth) {
+    const char* const side = depth < 0 ? "in front of" : "behind";
+    return fmt::format("{} {} the hologram", format_length(std::abs(depth)), side);
+}
+
+/// Fits the scene of a picture to the hologram, then turns it.
+void place_picture(Scene& scene, const LightFieldRequest& request) {
+    if (!request.fit) throw Error(ErrorCode::usage, "as_is", "a picture has no size of its own; leave out as-is");
+    if (!request.pose.camera.empty()) find_camera(scene, request.pose.camera);
+    const Fit fit{.width = request.grid.width(), .height = request.grid.height(), .fill = 1, .front = request.front};
+    if (scene.units == SceneUnits::picture_widths) {
+        fit_with_limited_front(scene, fit);
+    } else {
+        const Bounds box = bounds(scene);
+        const double scale = scene::fit_scale(box.high - box.low, fit);
+        for (Mesh& mesh : scene.meshes)
+            for (Vec3& position : mesh.positions) position = {scale * position.x, scale * position.y, position.z};
+    }
+    const Bounds box = bounds(scene);
+    if (box.high.z > box.low.z)
+        scene.notes.push_back(fmt::format("its nearest point is {}, its farthest {}; --near and --far set both",
+                                          place_of(-box.high.z), place_of(-box.low.z)));
+    turn_scene(scene, request.pose);
+}
+
 /// Rotates and fits the scene of a file, or uses the view of its camera, and adds notes about these decisions.
 void place_imported(Scene& scene, const LightFieldRequest& request) {
+    if (scene.units != SceneUnits::any) return place_picture(scene, request);
     const ScenePose& pose = request.pose;
     const Fit fit{.width = request.grid.width(), .height = request.grid.height(), .front = request.front};
     if (!pose.camera.empty()) {

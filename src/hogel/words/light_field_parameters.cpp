@@ -85,7 +85,7 @@ void LightFieldParameters::resolve(const ShadedScene& lit) {
 LightFieldRequest LightFieldParameters::scene_request() const {
     LightFieldRequest wanted = request();
     wanted.pose = scene.complete_pose();
-    wanted.import.point_size = scene.point_size;
+    wanted.import = scene.import_options();
     if (!wanted.pose.camera.empty() && (wanted.pose.up || wanted.pose.rotation != Vec3{} || as_is))
         throw Error(ErrorCode::usage, "scene_camera",
                     "turns and fits the scene itself; leave out up, rotate and as-is");
@@ -138,7 +138,7 @@ void LightFieldParameters::declare(Parameters& parameters) {
         .acts_if([this] { return is_rendered && !hemicube && frequencies == 0; });
     parameters
         .number("--front", front, "F",
-                "Fraction of a mesh file's depth in front of the hologram: 0 none, 1 all; with -0.1 it "
+                "Fraction of the depth of a file's scene in front of the hologram: 0 none, 1 all; with -0.1 it "
                 "begins a tenth of its depth behind it")
         .range(-100, 1)
         .acts_if([this] { return scene.is_file && !as_is; });

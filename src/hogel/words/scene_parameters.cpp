@@ -128,9 +128,23 @@ ScenePose SceneParameters::complete_pose() const {
     return complete;
 }
 
+ImportOptions SceneParameters::import_options() const {
+    ImportOptions options;
+    options.point_size = point_size;
+    options.depth_map = depth_map;
+    if (depth_map.empty() && (near || far))
+        throw Error(ErrorCode::usage, "near, far", "are depths of a depth map; add depth-map");
+    options.depths.values = depth_values == "distance"    ? DepthValues::distance
+                            : depth_values == "disparity" ? DepthValues::disparity
+                                                          : DepthValues::nearness;
+    options.depths.near = near;
+    options.depths.far = far;
+    return options;
+}
+
 void SceneParameters::resolve(const Scene& loaded, bool is_from_file) {
     is_loaded = true;
-    is_file = is_from_file;
+    is_file = is_from_file && loaded.units != SceneUnits::depths;
     is_lit = std::ranges::any_of(loaded.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
     has_points = std::ranges::any_of(loaded.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
 }
@@ -166,8 +180,7 @@ void SceneParameters::declare(Parameters& parameters) {
                            usual_strength))
         .acts_if([this] { return is_lit; });
     parameters
-        .parsed("--background", "COLOUR",
-                "Colour of rays that hit nothing (default: the scene's; for a mesh file black)",
+        .parsed("--background", "COLOUR", "Colour of rays that hit nothing (default: the scene's; for a file black)",
                 [this](const std::string& text) { pose.background = parse_color(text, "background"); })
         .acts_if([this] { return has_background; });
     parameters.parsed("--ground", "COLOUR", "Add a level ground of this colour under the scene (default: none)",
@@ -178,6 +191,25 @@ void SceneParameters::declare(Parameters& parameters) {
         .positive()
         .no_default()
         .acts_if([this] { return has_points; });
+    parameters
+        .text("--depth-map", depth_map, "FILE", "Depth map of a picture: grey values, one for each pixel or block")
+        .no_default();
+    const auto has_map = [this] { return !depth_map.empty(); };
+    parameters
+        .choice("--depth-values", depth_values, {"nearness", "distance", "disparity"}, "KIND",
+                "Meaning of the depth map's values:\n"
+                "nearness: the largest are the nearest, depth is linear in the value\n"
+                "distance: the largest are the farthest, depth is linear in the value\n"
+                "disparity: the largest are the nearest, the reciprocal distance from the eye at 300 mm is linear")
+        .acts_if(has_map);
+    parameters
+        .length(
+            "--near", near,
+            "Depth of the depth map's nearest value: negative in front of the hologram, positive behind it (default: "
+            "the map's range is a quarter of the picture's width, moved by --front)")
+        .acts_if(has_map);
+    parameters.length("--far", far, "Depth of the depth map's farthest value; given together with --near")
+        .acts_if(has_map);
 }
 
 }  // namespace hogel

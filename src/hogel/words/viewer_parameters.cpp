@@ -40,7 +40,7 @@ void require_token(const std::string& host, const std::string& token) {
 void ViewerParameters::declare(Parameters& parameters) {
     parameters.positional(
         "input", input, "X.h5|SCENE|F.h5|FOLDER",
-        "Light field, set of views, mesh file, built-in scene, hologram, another program's field, or a "
+        "Light field, set of views, picture, mesh file, built-in scene, hologram, another program's field, or a "
         "folder of hogel make");
     parameters.whole("--port", port, max_port, "Port to listen on; 0: any free port");
     parameters.text("--host", host, "ADDRESS",
@@ -76,7 +76,7 @@ std::string ViewerParameters::viewable() const {
                     fmt::format("{}: holds no lightfield.h5; 'hogel make --keep-light-field' keeps it", input));
     }
     if (field.is_external(input)) return input;
-    field.require_described(input);
+    if (hologram.pitch_given) field.require_described(input);
     input_kind(input);
     return input;
 }

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "hogel/core/child_process.h"
-#include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/scene.h"
 #include "hogel/scene/edges.h"
@@ -25,6 +24,7 @@
 #include "hogel/scene/mesh_files/read_ply.h"
 #include "hogel/scene/mesh_files/stl.h"
 #include "hogel/scene/mesh_files/transfer.h"
+#include "hogel/scene/pictures.h"
 
 namespace hogel {
 
@@ -243,8 +243,7 @@ Scene convert(Read read, const std::filesystem::path& path, const std::string& f
 
 }  // namespace
 
-Scene import_scene(const std::filesystem::path& path, const Progress& progress, const ImportOptions& options) {
-    const core::StopScope scope(progress);
+Scene scene::import_mesh(const std::filesystem::path& path, const ImportOptions& options) {
     const std::string file = path.string();
     const std::uintmax_t size = check_regular_file(path);
     try {
