@@ -152,8 +152,13 @@ struct Pair {
         const double blocks = static_cast<double>(std::max<std::size_t>(found.blocks, 1));
         return found.blocks > 0 && std::abs(keystone()) > std::max(most, 8 * found.deviation / std::sqrt(blocks));
     }
+    // Movement other than keystone at the outermost blocks, pixels; 0 unless it stands out from the scatter of the
+    // blocks. Edges of smooth bodies have no texture across the line of the cameras, and scatter by whole pixels.
     double rest() const {
-        return std::abs(found.shift) + std::abs(found.roll) * found.along + std::abs(found.zoom) * found.across;
+        constexpr double noticed = 0.5, scatter = 4;
+        const double size =
+            std::abs(found.shift) + std::abs(found.roll) * found.along + std::abs(found.zoom) * found.across;
+        return found.blocks > 0 && size > std::max(noticed, scatter * found.deviation) ? size : 0;
     }
 };
 
@@ -243,8 +248,7 @@ void require_rectified(ViewSet& set, const ParallaxEvidence& evidence) {
                             std::filesystem::path(last.first).filename().string(),
                             along_y ? "keystoned sideways" : "keystoned up and down", size(last)));
         const auto worst = std::ranges::max_element(pairs, {}, &Pair::rest);
-        constexpr double noticed = 0.5;
-        if (worst->found.blocks > 0 && worst->rest() > noticed)
+        if (worst->rest() > 0)
             set.notes.push_back(
                 fmt::format("the views are not rectified: points move {} by up to {:.2g} pixels from {} to {}",
                             along_y ? "sideways" : "up or down", worst->rest(),

@@ -210,6 +210,18 @@ TEST(SetVariations, NineViewsOfARailAreOneRow) {
     }
 }
 
+TEST(SetVariations, TwoNumberedPicturesAreASetIfTheirNumberIsGiven) {
+    const TestScene pair{.columns = 2, .rows = 1};
+    const TestFolder folder;
+    for (std::size_t c = 0; c < 2; ++c) folder.write(fmt::format("cam_{}.png", c), pair.png(0, c));
+    EXPECT_FALSE(is_view_set(folder.path()));
+    EXPECT_THROW(open_views(folder.path(), {}), Error);
+    ViewImportOptions options;
+    options.columns = 2;
+    options.rows = 1;
+    expect_views(pair, open_views(folder.path(), options));
+}
+
 TEST(SetVariations, QuiltsByManyNames) {
     const TestScene row{.columns = 4, .rows = 1, .width = 20, .height = 16};
     Array<std::uint8_t, 3> quilt({32, 40, 3});

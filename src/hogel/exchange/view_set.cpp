@@ -81,6 +81,9 @@ ViewLayout layout_of(const std::filesystem::path& source, const ViewImportOption
     if (!options.layout.empty()) return view_layouts().find(options.layout);
     for (const ViewLayout& layout : view_layouts().rows())
         if (layout.probe(source)) return layout;
+    // Two pictures with numbers are a set if it is known how many there are.
+    const std::vector<NumberedFiles> groups = numbered_pictures(source);
+    if (options.columns > 0 && !groups.empty() && groups.front().varying.size() == 1) return numbered_layout();
     fail_source(source, fmt::format("is no set of views that is recognised{}{}; layouts are {}", set_below(source),
                                     names_that_differ(source), fmt::join(view_layouts().names(), ", ")));
 }
