@@ -32,13 +32,6 @@ struct Options {
     }
 };
 
-double parse_exposure(const std::string& text) {
-    const std::optional<double> exposure = parse_number(text);
-    if (!exposure || !(*exposure > 0 && *exposure < 1e12))
-        throw Error(ErrorCode::usage, "exposure", fmt::format("'{}' is neither auto nor a positive number", text));
-    return *exposure;
-}
-
 // Photographs the intensity or the phase.
 std::vector<Image> photograph_fields(Stage& stage, const Fields& fields, std::span<const Camera> cameras,
                                      const Options& options) {
@@ -189,7 +182,7 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
 }
 
 int photo(Options& options, const Session& session) {
-    const double requested_exposure = options.photo.exposure == "auto" ? 0 : parse_exposure(options.photo.exposure);
+    const double requested_exposure = parse_exposure(options.photo.exposure);
     const Command& given = *session.command;
     if (given.given("--pitch") && !given.given("--wave") && !given.given("--like"))
         options.field.require_described(options.input);

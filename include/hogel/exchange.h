@@ -97,14 +97,35 @@ HOGEL_API Plan plan_import(const ImportedViews& views, const ViewImportOptions& 
 /// Copies an imported light field to a sink, band by band on all threads. Memory: a band, and a hogel row per thread.
 HOGEL_API void write_views(const LightField& light_field, LightFieldSink& sink, const Progress& progress = {});
 
+/// A display that shows a quilt: a picture of one row of cameras as tiles (docs/exchange.md).
+struct QuiltDisplay {
+    std::string name;                   ///< "lkg-portrait"
+    std::size_t columns = 0, rows = 0;  ///< of tiles, one a view
+    std::size_t width = 0, height = 0;  ///< of the quilt, pixels
+    double aspect = 0;                  ///< width/height of the display; pixels of a tile need not be square
+    double cone = 0;                    ///< full angle of the cameras, seen from the display, radians
+    std::string source;                 ///< address of the figures
+
+    /// Return the pixels of a tile. The rest of a quilt that does not divide is a black margin, right and at the top.
+    std::size_t tile_width() const { return width / columns; }
+    std::size_t tile_height() const { return height / rows; }
+};
+
+/// Returns all displays for quilts.
+HOGEL_API Table<QuiltDisplay>& quilt_displays();
+
 /// Options of export_views().
 struct ViewExportOptions {
     std::string layout = "rows-columns";    ///< name of a row of view_layouts()
     std::string format = {};                ///< "png", "ppm", "pfm" or "exr"; empty: as imported, else "png"
     unsigned bits = 0;                      ///< of integer samples, 8 to 16; 0: as imported, else 8
     std::optional<Transfer> transfer = {};  ///< default: as imported, else sRGB, or linear for floating-point numbers
-    double exposure = 1;                    ///< factor of linear values before conversion to integers
-    double memory = 1e9;                    ///< bytes of views in memory
+    /// Factor of linear values. 0: automatic_exposure() of the middle view, except for imported views and
+    /// floating-point formats, which have 1.
+    double exposure = 1;
+    double memory = 1e9;  ///< bytes of views in memory
+    /// Display of a quilt, whose views are resampled to its tiles. Default: tiles have a pixel for each hogel.
+    std::optional<QuiltDisplay> display = {};
     /// Metadata of each PNG and EXR file, before the light field's own provenance.
     Metadata metadata = {};
 };
@@ -114,13 +135,14 @@ struct ExportedViews {
     std::size_t columns = 0, rows = 0;         ///< number of views
     std::vector<std::filesystem::path> files;  ///< in writing order
     std::vector<std::string> notes = {};       ///< remarks for users of the set
+    double exposure = 1;                       ///< factor of linear values
 };
 
 /// Writes a light field as a set of views: one view per direction, one pixel per hogel. With a fixed focal plane in
 /// front of the hologram the views are pictures of cameras there. Otherwise they are orthographic, which layouts of
 /// cameras refuse. It is the inverse of import_views(): integers of 8 to 16 bits are restored exactly if the light
-/// field's samples are precise enough; half floats restore integers up to 11 bits. Throws Error(usage) if the layout
-/// cannot hold the views, Error(cannot_write).
+/// field's samples are precise enough; half floats restore integers up to 11 bits. A quilt gets the middle row of
+/// views. Throws Error(usage) if the layout cannot hold the views, Error(cannot_write).
 /// @param target  an existing folder, or a file for some layouts
 HOGEL_API ExportedViews export_views(const LightField& light_field, const std::filesystem::path& target,
                                      const ViewExportOptions& options, const Progress& progress = {});
@@ -150,6 +172,7 @@ struct ViewLayout {
     bool is_folder = true;         ///< whether a set is a folder, not a file
     bool cameras_only = true;      ///< whether it cannot hold orthographic views
     bool has_pictures = true;      ///< whether views are stored in a picture format
+    bool is_row = false;           ///< whether a set is one row of cameras
     bool written_at_once = false;  ///< whether all views are in memory until the last is complete
     bool (*probe)(const std::filesystem::path& source) = nullptr;  ///< whether a source is such a set
     exchange::ViewSet (*open)(const std::filesystem::path& source, const ViewImportOptions& options) = nullptr;

@@ -76,20 +76,35 @@ struct HOGEL_API ImportParameters {
     void declare(Parameters& parameters);
 };
 
-/// Export of a light field as a set of views, or as a film of the middle row of views.
+/// Parses an exposure: 0 for "auto". Throws Error(usage) for other texts that are not positive numbers.
+HOGEL_API double parse_exposure(const std::string& text);
+
+struct LightFieldParameters;
+
+/// Export of a light field or a scene as a set of views, or as a film of the middle row of views.
 struct HOGEL_API ExportParameters {
-    ViewExportOptions views;  ///< except `bits`, `transfer` and `metadata`
+    ViewExportOptions views;  ///< except `bits`, `transfer`, `exposure`, `display` and `metadata`
     bool layout_given = false;
     std::size_t bits = 0;    ///< 0: as imported
     std::string transfer;    ///< empty: as imported
+    std::string exposure;    ///< for parse_exposure(); empty: auto for quilts and films, otherwise 1
+    std::string device;      ///< name of a row of quilt_displays(); empty: tiles have a pixel for each hogel
     double frame_rate = 24;  ///< frames per second
     bool is_film = false;
 
+    bool is_quilt() const { return views.layout == "quilt"; }
     /// Returns the options of export_views(). Throws Error(usage).
     ViewExportOptions options() const;
     /// Derives values from the name of the output: the layout unless it is given, the picture format of a quilt, and
-    /// the pictures of a film. Throws Error(usage) for an unknown layout.
+    /// the pictures of a film. Throws Error(usage) for an unknown layout, and for a device with another layout.
     void resolve(const std::filesystem::path& output);
+    /// Sets the grid of a scene's light field for a quilt, after resolve(): hogels, directions, field of view and focal
+    /// plane. Without a device, selects the first display whose tiles are those of the name. Throws Error(usage) if
+    /// `given` has other numbers of hogels or directions.
+    void set_cameras(LightFieldParameters& scene, const std::filesystem::path& output, const Parameters& given);
+    /// Returns a line about the depths at which a quilt stays sharp, and about options if the placed scene exceeds
+    /// them. Returns an empty text for other layouts.
+    std::string note_about_depth(const Scene& placed, const LightFieldParameters& scene) const;
     void declare(Parameters& parameters);
 };
 
@@ -156,6 +171,8 @@ struct HOGEL_API LightFieldParameters {
     void declare(Parameters& parameters);
     /// Declares --hemicube, for commands that use all faces.
     void declare_hemicube(Parameters& parameters);
+    /// Declares --focal-plane, for commands that use a single face.
+    Parameter& declare_focal_plane(Parameters& parameters);
     /// Declares --focal-plane, --frequencies and --interpolate, for commands that write light fields.
     void declare_directions(Parameters& parameters);
 };

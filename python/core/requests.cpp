@@ -106,7 +106,10 @@ std::vector<std::pair<std::string, std::vector<std::string>>> command_parameters
                         })},
             {"print", Order{"input"}.of<PrintParameters>()},
             {"bake", Order{"scene"}.of<BakeParameters>()},
-            {"export", Order{"input"}.of<ExportParameters>()},
+            {"export", Order{"input"}.of<ExportParameters>().of<LightFieldParameters>([](auto& scene, auto& table) {
+                 scene.declare(table);
+                 scene.declare_focal_plane(table);
+             })},
             {"import", Order{"source", "depth", "float", "sqnr"}.of<ImportParameters>()}};
 }
 
@@ -137,6 +140,21 @@ void add_keywords(py::module_& module) {
     module.def(
         "light_field_request", [](const py::dict& keywords) { return LightFieldKeywords(keywords).values.request(); },
         arg("keywords"));
+    module.def(
+        "export_cameras",
+        [](const std::filesystem::path& target, const py::dict& of_views, const py::dict& of_scene) {
+            Keywords<ExportParameters> views(of_views);
+            LightFieldKeywords scene(of_scene);
+            views.values.resolve(target);
+            py::dict options;
+            if (!views.values.is_quilt()) return py::make_tuple(options, views.values.device);
+            views.values.set_cameras(scene.values, target, scene.table);
+            for (const Parameter& each : scene.table.all())
+                for (const char* name : {"hogels", "directions", "fov", "focal-plane"})
+                    if (each.name == name) options[each.keyword().c_str()] = each.value();
+            return py::make_tuple(options, views.values.device);
+        },
+        arg("target"), arg("of_views"), arg("of_scene"));
     module.def(
         "light_field_record",
         [](const py::dict& keywords, const Scene& placed, bool is_file, const std::shared_ptr<ShadedScene>& shaded) {

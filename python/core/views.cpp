@@ -107,6 +107,7 @@ void add_view_options(py::module_& module) {
         .def_readonly("notes", &ImportedViews::notes);
     py::class_<ViewExportOptions>(module, "ViewExportOptions")
         .def_readonly("layout", &ViewExportOptions::layout)
+        .def_readwrite("memory", &ViewExportOptions::memory)
         .def_property(
             "metadata", [](const ViewExportOptions& o) { return o.metadata; },
             [](ViewExportOptions& o, const py::object& m) { o.metadata = metadata_of(m); });
@@ -114,7 +115,8 @@ void add_view_options(py::module_& module) {
         .def_readonly("columns", &ExportedViews::columns)
         .def_readonly("rows", &ExportedViews::rows)
         .def_readonly("files", &ExportedViews::files)
-        .def_readonly("notes", &ExportedViews::notes);
+        .def_readonly("notes", &ExportedViews::notes)
+        .def_readonly("exposure", &ExportedViews::exposure);
 }
 
 void add_view_sets(py::module_& module) {
@@ -126,6 +128,18 @@ void add_view_sets(py::module_& module) {
             rows.emplace_back(row.name, row.text, row.is_folder, row.create != nullptr);
         return rows;
     });
+    py::class_<QuiltDisplay>(module, "QuiltDisplay")
+        .def_readonly("name", &QuiltDisplay::name)
+        .def_readonly("columns", &QuiltDisplay::columns)
+        .def_readonly("rows", &QuiltDisplay::rows)
+        .def_readonly("width", &QuiltDisplay::width)
+        .def_readonly("height", &QuiltDisplay::height)
+        .def_readonly("aspect", &QuiltDisplay::aspect)
+        .def_readonly("cone", &QuiltDisplay::cone)
+        .def_readonly("source", &QuiltDisplay::source)
+        .def_property_readonly("tile_width", &QuiltDisplay::tile_width)
+        .def_property_readonly("tile_height", &QuiltDisplay::tile_height);
+    module.def("quilt_displays", [] { return quilt_displays().rows(); });
     module.def("is_view_set", &is_view_set, arg("source"), py::call_guard<py::gil_scoped_release>());
     module.def(
         "import_views",

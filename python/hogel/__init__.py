@@ -111,6 +111,7 @@ __all__ = [
     "open",
     "parts",
     "program",
+    "quilt_displays",
     "rad",
     "renderers",
     "request",
@@ -197,6 +198,16 @@ def modulators() -> list[str]:
     True
     """
     return _core.modulators()
+
+
+def quilt_displays() -> list[str]:
+    """Returns the names of displays for quilts, for `device` of export().
+
+    >>> import hogel
+    >>> "lkg-portrait" in hogel.quilt_displays()
+    True
+    """
+    return [display.name for display in _core.quilt_displays()]
 
 
 def coders() -> list[str]:

@@ -32,7 +32,7 @@ def export_views(
     light_field: Rays, target: Path, *, force: bool = False, metadata: Any = None, progress: Progress = None, **options: Any
 ) -> Any:
     """Writes a light field as a set of views, one per direction, to a new folder or a file, or as a film of the middle row
-    of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files and notes.
+    of views (.mp4, .gif, .apng). The options are those of `hogel export`. Returns columns, rows, files, notes and exposure.
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=3, size="4mm", focal_plane="-300mm")
@@ -46,8 +46,11 @@ def export_views(
     if metadata is None:
         metadata = _record.by_function("LightField.export")
         if light_field._made is not None:
-            metadata = _record.entries("export", {**_record.renamed(light_field._made, "source", "input"), **dict(acted)})
+            made = _record.renamed(_record.renamed(light_field._made, "source", "input"), "scene", "input")
+            metadata = _record.entries("export", {**made, **dict(acted)})
     view_options.metadata = metadata
+    if light_field._rendering is not None:  # all views in memory, so that it is rendered once
+        view_options.memory = max(view_options.memory, 4.0 * light_field.size)
     if {layout: is_folder for layout, _, is_folder, _ in _core.view_layouts()}[view_options.layout]:
         _make_folder(name, force)
     else:

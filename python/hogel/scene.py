@@ -9,9 +9,10 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _core, _record, units
-from ._keywords import passes_options_to, takes
+from ._keywords import _keywords, passes_options_to, takes
 from ._progress import Progress, reporting
 from .errors import BadInputError, UsageError, usage_error
+from .exports import export_views
 from .hologram import Hologram
 from .light_field import LightField
 from .picture import Picture
@@ -240,6 +241,26 @@ class Scene:
             made._made = {"scene": self.name, **dict(record)}
             made._identity = _core.describe_input(self.name, placed)
         return made
+
+    @passes_options_to(request, export_views)
+    def export(self, target: Union[str, "os.PathLike[str]"], *, progress: Progress = None, **options: Any) -> _core.ExportedViews:
+        """Renders the scene and writes its views, or a film of the middle row, as `hogel export` does. The options are those
+        of render() and hogel.export_views(). A quilt chooses hogels, directions, fov and focal_plane for its display
+        (hogel.quilt_displays()), by `device` or the name.
+
+        >>> import hogel, os, tempfile
+        >>> made = hogel.Scene.load("sphere").export(os.path.join(tempfile.mkdtemp(), "x_qs3x2a0.75.png"), hogels=(12, 16))
+        >>> made.columns, made.rows, len(made.files)
+        (6, 1, 1)
+        """
+        names = _keywords(export_views)
+        of_views = {name: value for name, value in options.items() if name in names}
+        of_scene = {name: value for name, value in options.items() if name not in names}
+        parameters = {name: value for name, value in of_views.items() if name not in ("force", "metadata")}
+        cameras, device = _core.export_cameras(os.fspath(target), parameters, of_scene)
+        if device:
+            of_views["device"] = device
+        return self.render(progress=progress, **{**of_scene, **cameras}).export(target, progress=progress, **of_views)
 
     @takes(_core.scene_hologram_keywords())
     def hologram(self, *, method: str, progress: Progress = None, **options: Any) -> Hologram:

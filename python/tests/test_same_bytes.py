@@ -285,6 +285,19 @@ class SameBytes(InFolder):
         with self.assertRaisesRegex(hogel.CannotWriteError, "holds files already"):
             opened.export("p")
 
+    def test_export_of_a_scene(self):
+        cases = [
+            ("views.npy", ["--hogels", "12x9", "--directions", "4x2", "--focal-plane", "-200mm", "--exposure", "auto"],
+             dict(hogels=(12, 9), directions=(4, 2), focal_plane="-200mm", exposure="auto")),
+            ("x_qs3x2a0.75.png", ["--hogels", "12x16", "--fov", "30deg", "--samples", "2x1"],
+             dict(hogels=(12, 16), fov=30 * deg, samples=(2, 1))),
+        ]
+        for name, words, options in cases:
+            with self.subTest(name):
+                command_line("export", "pumpkin", "-o", f"c{name}", *words)
+                hogel.Scene.load("pumpkin").export(f"p{name}", **options)
+                self.assert_same(f"c{name}", f"p{name}")
+
     def test_import(self):
         command_line("render", "pumpkin", "-o", "lf.h5", *CAMERAS)
         command_line("export", "lf.h5", "-o", "views")

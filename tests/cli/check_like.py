@@ -89,6 +89,7 @@ CASES = [
     ("bake m.obj --rays 3 --size 1mm", "o.glb"),
     ("print x.h5 --strips", "o"),
     ("export wide.h5 --layout numbered", "o"),
+    ("export m.obj --size 1mm --hogels 24x32 --layout quilt", "o_qs3x2a0.75.png"),
     ("make m.obj --hogels 24x24 --directions 12x12 --size 1.2mm --resolution 24 --eye-distance 60mm --pupil 3mm", "o"),
 ]
 

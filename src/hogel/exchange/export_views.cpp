@@ -8,8 +8,10 @@
 #include "hogel/core/rates.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
+#include "hogel/exchange/scaled_view.h"
 #include "hogel/exchange/transfer.h"
 #include "hogel/exchange/view_set.h"
+#include "hogel/image.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel {
@@ -155,25 +157,50 @@ void read_group(const LightFieldSource& source, Group& group, const Progress& pr
     }
 }
 
+double exposure_of(View<const float, 3> view, const Provenance& provenance) {
+    Image picture(view.extent(1), view.extent(0), view.extent(2));
+    std::ranges::copy(view.elements(), picture.pixels.data());
+    picture.provenance = provenance;
+    return automatic_exposure(picture);
+}
+
+// Returns the exposure of the middle view; 0 if it is in memory with all other views, which are `group_size`.
+double requested_exposure(const LightField& light_field, const ViewTarget& target, const ViewExportOptions& options,
+                          std::size_t group_size, std::size_t middle) {
+    if (options.exposure > 0) return options.exposure;
+    if (target.bits == 32 || !stored(light_field, "views bits").empty()) return 1;
+    if (group_size == target.columns * target.rows) return 0;
+    Group group(light_field.grid(), middle, 1);
+    read_group(light_field.front(), group, {});
+    return exposure_of(group.view(0), light_field.provenance());
+}
+
 ExportedViews write_views(const LightField& light_field, const ViewTarget& target, const ViewExportOptions& options,
                           const Progress& progress) {
     const auto writer = view_layouts().find(options.layout).create(target);
     ExportedViews exported{target.columns, target.rows, {}, {}};
-    const std::size_t views = target.columns * target.rows;
+    const LightFieldGrid& grid = light_field.grid();
+    const std::size_t views = target.columns * target.rows,
+                      skipped_rows = target.rows < grid.directions_v ? grid.directions_v / 2 : 0,
+                      skipped = skipped_rows * target.columns,
+                      middle = target.rows / 2 * target.columns + target.columns / 2;
     exported.files.resize(views);
-    const double view_bytes = static_cast<double>(target.width * target.height * target.channels) * sizeof(float);
+    const double view_bytes = static_cast<double>(grid.hogels() * grid.channels) * sizeof(float);
     const auto group_size =
         static_cast<std::size_t>(std::clamp(options.memory / view_bytes, 1.0, static_cast<double>(views)));
+    exported.exposure = requested_exposure(light_field, target, options, group_size, skipped + middle);
     for (std::size_t first = 0; first < views; first += group_size) {
         const std::size_t count = std::min(group_size, views - first);
         const Progress part = progress.part(static_cast<double>(first) / static_cast<double>(views),
                                             static_cast<double>(first + count) / static_cast<double>(views));
-        Group group(light_field.grid(), first, count);
+        Group group(grid, skipped + first, count);
         read_group(light_field.front(), group, part.part(0, 0.5));
+        if (exported.exposure == 0) exported.exposure = exposure_of(group.view(middle), light_field.provenance());
         work::parallel_for(count, [&](std::size_t i) {
             const std::size_t row = (first + i) / target.columns, column = (first + i) % target.columns;
-            exported.files[first + i] =
-                writer->write(row, column, stored_view(group.view(i), target, options.exposure));
+            exported.files[first + i] = writer->write(
+                row, column,
+                stored_view(scaled_view(group.view(i), target.height, target.width), target, exported.exposure));
         });
         part.report(1);
     }
@@ -181,7 +208,22 @@ ExportedViews write_views(const LightField& light_field, const ViewTarget& targe
     std::erase_if(exported.files, [](const auto& file) { return file.empty(); });
     exported.files.insert(exported.files.end(), more.begin(), more.end());
     exported.notes = writer->notes();
+    if (target.rows < grid.directions_v)
+        exported.notes.push_back(
+            fmt::format("one row of cameras: row {} of the {} rows of views", skipped_rows + 1, grid.directions_v));
     return exported;
+}
+
+// Makes views tiles of a display's quilt.
+void set_display(const QuiltDisplay& display, ViewTarget& target) {
+    if (display.columns == 0 || display.rows == 0 || display.tile_width() == 0 || display.tile_height() == 0)
+        throw Error(ErrorCode::usage, "device",
+                    fmt::format("the display '{}' has no pixels or no tiles for views", display.name));
+    const double aspect = static_cast<double>(target.width) / static_cast<double>(target.height);
+    target.width = display.tile_width();
+    target.height = display.tile_height();
+    target.geometry.pixel_height *= static_cast<double>(target.width) / static_cast<double>(target.height) / aspect;
+    target.display = display;
 }
 
 }  // namespace
@@ -211,14 +253,16 @@ ExportedViews export_views(const LightField& light_field, const std::filesystem:
     const core::StopScope scope(progress);
     const ViewLayout layout = view_layouts().find(options.layout);
     require_views(light_field, layout);
-    if (!(std::isfinite(options.exposure) && options.exposure > 0))
-        throw Error(ErrorCode::usage, "exposure",
-                    fmt::format("the exposure is {}, but must be positive and finite", options.exposure));
+    if (!(std::isfinite(options.exposure) && options.exposure >= 0))
+        throw Error(
+            ErrorCode::usage, "exposure",
+            fmt::format("the exposure is {}; expected a positive number, or 0 for automatic", options.exposure));
     if (options.bits != 0 && (options.bits < 8 || options.bits > 16))
         throw Error(ErrorCode::usage, "bits",
                     fmt::format("{} bits per sample were requested; expected 8 to 16", options.bits));
-    const LightFieldGrid& grid = light_field.grid();
-    ViewTarget target = target_of(grid, path);
+    ViewTarget target = target_of(light_field.grid(), path);
+    if (layout.is_row) target.rows = 1;
+    if (layout.is_row && options.display) set_display(*options.display, target);
     target.texts = with_history(options.metadata, to_metadata(light_field.provenance()));
     target.format = layout.has_pictures ? format_for(light_field, options) : layout.name;
     target.bits = bits_for(light_field, options, target.format);

@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-
+#include <numeric>
 #include <random>
 
 #include "hogel/error.h"
 #include "hogel/exchange.h"
+#include "hogel/exchange/scaled_view.h"
 #include "hogel/exchange/test_views.h"
 #include "hogel/exchange/transfer.h"
 #include "hogel/exchange/view_set.h"
@@ -196,7 +197,126 @@ TEST(ExportViews, QuiltsComeBack) {
         expect_same(before.light_field, import_views(folder / name, geometry_of(before.grid)).light_field, 0);
     }
     EXPECT_THROW(export_views(before.light_field, folder / "a_qs3x1a1.3333.png", {.layout = "quilt"}), Error);
-    EXPECT_THROW(export_views(EightBits().light_field, folder / "a_qs2x2a1.3333.png", {.layout = "quilt"}), Error);
+}
+
+TEST(ExportViews, QuiltsAreTheMiddleRowOfViews) {
+    const EightBits all, row(1);
+    const std::filesystem::path file = all.folder.path() / "a_qs2x2a1.3333.png";
+    const ExportedViews exported = export_views(all.light_field, file, {.layout = "quilt"});
+    EXPECT_EQ(exported.rows, 1u);
+    EXPECT_EQ(exported.notes, std::vector<std::string>{"one row of cameras: row 2 of the 3 rows of views"});
+    LightFieldBuffer before(all.grid), after(row.grid);
+    copy(all.light_field.front(), before);
+    write_views(import_views(file, geometry_of(row.grid)).light_field, after);
+    for (std::size_t t = 0; t < 9; ++t)
+        for (std::size_t s = 0; s < 12; ++s)
+            for (std::size_t k = 0; k < 4; ++k)
+                ASSERT_EQ(after.radiance(0, t, s, 0, k), before.radiance(0, t, s, 1, k));
+}
+
+// A bright bar at a depth, and the display that shows it in tiles of 20x20 pixels with margins.
+struct BarQuilt {
+    static constexpr double distance = 0.3, size = 40e-3;
+    QuiltDisplay display{"test", 3, 2, 62, 41, 1.25, 0.3, ""};
+    LightFieldGrid grid{50, 40, size / 50, 6, 1, FocalPlane{{0.15, 0.15 / 6}, -distance}, 3};
+
+    // Returns the codes of the quilt.
+    Array<std::uint8_t, 3> write(double depth) const {
+        const LightField light_field = light_field_from(
+            grid, [=](double s, double, double U, double) { return std::abs(s + U * depth) < 2e-3 ? 0.1 : 0.0; });
+        const TestFolder folder;
+        const std::filesystem::path file = folder.path() / "bar_qs3x2a1.25.png";
+        export_views(light_field, file, {.layout = "quilt", .exposure = 0, .display = display});
+        return std::get<Array<std::uint8_t, 3>>(image::read_picture(file, max_pixels).samples);
+    }
+    // Returns the position of the bar in view i, in pixels of its tile.
+    static double bar(const Array<std::uint8_t, 3>& quilt, std::size_t i) {
+        double sum = 0, moment = 0;
+        for (std::size_t x = 0; x < 20; ++x) {
+            const double light =
+                decode(Transfer::srgb, static_cast<float>(quilt(41 - 10 - i / 3 * 20, i % 3 * 20 + x, 0)) / 255);
+            sum += light;
+            moment += light * (static_cast<double>(x) + 0.5);
+        }
+        return moment / sum;
+    }
+};
+
+// From a camera to the one on its right, a point at depth ζ moves by bζ/(D + ζ) to the right, a near one to the left.
+TEST(ExportViews, QuiltsForADisplayHaveItsSizeAndOrderAndTheParallaxOfDepth) {
+    const BarQuilt made;
+    const double spacing = made.grid.step_u() * BarQuilt::distance, pixel = BarQuilt::size / 20;
+    for (const double depth : {-0.03, 0.05}) {
+        const Array<std::uint8_t, 3> quilt = made.write(depth);
+        ASSERT_EQ(quilt.shape(), (Shape<3>{41, 62, 3}));
+        const double step = spacing * depth / (BarQuilt::distance + depth) / pixel;
+        for (std::size_t i = 0; i < 6; ++i)
+            EXPECT_NEAR(BarQuilt::bar(quilt, i), 10 + (static_cast<double>(i) - 2.5) * step, 0.25) << depth << " " << i;
+        for (std::size_t x = 0; x < 62; ++x) EXPECT_EQ(quilt(0, x, 0), 0) << "margin at the top";
+        for (std::size_t y = 0; y < 41; ++y) EXPECT_EQ(quilt(y, 60, 0) + quilt(y, 61, 0), 0) << "margin on the right";
+        // The median of the middle view becomes 0.55.
+        EXPECT_NEAR(*std::ranges::max_element(quilt.elements()), 255 * encode(Transfer::srgb, 0.55f), 1);
+    }
+}
+
+TEST(ExportViews, QuiltsForADisplayNeedItsViewsAspectAndName) {
+    const BarQuilt made;
+    const LightField light_field = light_field_from(made.grid, [](double, double, double, double) { return 0.1; });
+    const TestFolder folder;
+    const auto refuses = [&](const QuiltDisplay& display, const char* name) {
+        EXPECT_THROW(export_views(light_field, folder.path() / name, {.layout = "quilt", .display = display}), Error)
+            << name;
+    };
+    refuses(made.display, "bar.png");
+    refuses(made.display, "bar_qs2x3a1.25.png");
+    refuses(made.display, "bar_qs3x2a1.png");
+    refuses({"wide", 3, 2, 60, 40, 1.5, 0.3, ""}, "bar_qs3x2a1.5.png");
+    refuses({"more", 4, 2, 60, 40, 1.25, 0.3, ""}, "bar_qs4x2a1.25.png");
+    refuses({"none", 0, 0, 0, 0, 1.25, 0.3, ""}, "bar_qs3x2a1.25.png");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// Device templates of https://github.com/Looking-Glass/LKG-Toolkit, but for the 16" landscape, which reports these.
+TEST(QuiltDisplays, HaveTheFiguresOfTheirMaker) {
+    struct Figures {
+        const char* name;
+        std::size_t width, height, columns, rows, tile_width, tile_height;
+        double screen_width, screen_height;
+    };
+    for (const Figures& f : {Figures{"lkg-portrait", 3360, 3360, 8, 6, 420, 560, 1536, 2048},
+                             Figures{"lkg-go", 4092, 4092, 11, 6, 372, 682, 1440, 2560},
+                             Figures{"lkg-16-portrait", 5995, 6000, 11, 6, 545, 1000, 2160, 3840},
+                             Figures{"lkg-16-landscape", 7680, 4320, 8, 6, 960, 720, 3840, 2160},
+                             Figures{"lkg-32-portrait", 8184, 8184, 11, 6, 744, 1364, 4320, 7680},
+                             Figures{"lkg-32-landscape", 8190, 8190, 7, 7, 1170, 1170, 7680, 4320},
+                             Figures{"lkg-65", 8192, 8192, 8, 9, 1024, 910, 7680, 4320},
+                             Figures{"lkg-8.9", 4096, 4096, 5, 9, 819, 455, 2560, 1600},
+                             Figures{"lkg-15.6", 4096, 4096, 5, 9, 819, 455, 3840, 2160},
+                             Figures{"lkg-8k", 8192, 8192, 5, 9, 1638, 910, 7680, 4320}}) {
+        const QuiltDisplay& display = quilt_displays().find(f.name);
+        EXPECT_EQ(std::pair(display.width, display.height), std::pair(f.width, f.height)) << f.name;
+        EXPECT_EQ(std::pair(display.columns, display.rows), std::pair(f.columns, f.rows)) << f.name;
+        EXPECT_EQ(std::pair(display.tile_width(), display.tile_height()), std::pair(f.tile_width, f.tile_height));
+        EXPECT_NEAR(display.aspect, f.screen_width / f.screen_height, 1e-5) << f.name;
+        EXPECT_TRUE(display.source.starts_with("https://")) << f.name;
+    }
+    EXPECT_EQ(quilt_displays().rows().size(), 10u);
+}
+
+TEST(ScaledView, KeepsTheMeanAndAveragesTheCoveredPixels) {
+    Array<float, 3> picture({6, 4, 1});
+    std::iota(picture.data(), picture.data() + 24, 1.0f);
+    const Array<float, 3> halved = scaled_view(picture, 3, 2), same = scaled_view(picture, 6, 4);
+    for (std::size_t y = 0; y < 3; ++y)
+        for (std::size_t x = 0; x < 2; ++x)
+            EXPECT_FLOAT_EQ(halved(y, x, 0), (picture(2 * y, 2 * x, 0) + picture(2 * y + 1, 2 * x + 1, 0)) / 2);
+    EXPECT_TRUE(std::ranges::equal(same.elements(), picture.elements()));
+    for (const auto& [height, width] : {std::pair<std::size_t, std::size_t>{5, 3}, {7, 9}, {1, 1}}) {
+        const Array<float, 3> scaled = scaled_view(picture, height, width);
+        double sum = 0;
+        for (const float value : scaled.elements()) sum += value;
+        EXPECT_NEAR(sum / static_cast<double>(height * width), 12.5, 1e-5);
+    }
 }
 
 TEST(ExportViews, OrthographicViewsComeBackAndAreNoCameras) {

@@ -240,7 +240,12 @@ TEST(SetVariations, QuiltsByManyNames) {
         expect_views(row, set);
         EXPECT_NEAR(set.geometry.pixel_height, 1, 1e-12);
     }
+    // A margin is on the right and at the top.
+    Array<std::uint8_t, 3> wide({33, 41, 3});
+    for (std::size_t y = 0; y < 32; ++y) std::copy_n(&quilt(y, 0, 0), 120, &wide(y + 1, 0, 0));
     const TestFolder folder;
+    folder.write("wide_qs2x2a1.25.png", image::png_file(wide.view(), {}, image::Curve::srgb));
+    expect_views(row, open_views(folder.path() / "wide_qs2x2a1.25.png", {}));
     folder.write("a_qs2xa1.png", row.png(0, 0));
     EXPECT_NE(error_of(folder.path() / "a_qs2xa1.png").find("a_qs2xa1.png: is no set"), std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -109,7 +110,8 @@ struct ViewTarget {
     std::string format;     ///< "png", "ppm", "pfm" or "exr"; the layout's name if views are not pictures
     unsigned bits = 8;      ///< 8 to 16, or 32 for floating-point numbers
     Transfer transfer = Transfer::srgb;
-    Metadata texts;  ///< metadata, for formats that store texts
+    Metadata texts;                       ///< metadata, for formats that store texts
+    std::optional<QuiltDisplay> display;  ///< of a quilt; its tiles are width x height
 };
 
 /// Returns the counts and the geometry of a light field's views. Throws Error(usage) for directions that are not views.

@@ -163,17 +163,20 @@ void LightFieldParameters::declare_hemicube(Parameters& parameters) {
         .acts_if([this] { return is_rendered && frequencies == 0 && !focal_plane_given; });
 }
 
-void LightFieldParameters::declare_directions(Parameters& parameters) {
+Parameter& LightFieldParameters::declare_focal_plane(Parameters& parameters) {
     parameters.group(light_field_group);
-    parameters
+    return parameters
         .length(
             "--focal-plane", focal_plane,
             "Depth of a fixed focal plane: the rays of all hogels pass through the same points of it. Positive behind "
             "the hologram, negative in front, as a plane of cameras. --fov and --toward are then those of the middle "
             "of the hologram (default: none, all hogels have the same directions)")
         .no_default()
-        .sets(focal_plane_given)
-        .excludes("--hemicube");
+        .sets(focal_plane_given);
+}
+
+void LightFieldParameters::declare_directions(Parameters& parameters) {
+    declare_focal_plane(parameters).excludes("--hemicube");
     parameters
         .positive_length(
             "--frequencies", frequencies,

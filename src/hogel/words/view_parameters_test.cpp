@@ -93,7 +93,89 @@ TEST(ExportParameters, of_a_film_are_those_of_its_pictures) {
     const ViewExportOptions pictures = asked.values.options();
     EXPECT_EQ(pictures.layout, "rows-columns");
     EXPECT_EQ(pictures.bits, 8U);
-    EXPECT_EQ(asked.table.acting(), (Metadata{{"exposure", "1"}, {"frame-rate", "5"}}));
+    EXPECT_EQ(asked.table.acting(), (Metadata{{"exposure", "auto"}, {"frame-rate", "5"}}));
+}
+
+TEST(ExportParameters, expose_quilts_and_films_automatically_unless_told) {
+    const auto exposure = [](const char* output, const Metadata& texts) {
+        FromTexts<ExportParameters> asked(texts);
+        asked.values.resolve(output);
+        return asked.values.options().exposure;
+    };
+    EXPECT_EQ(exposure("views", {}), 1);
+    EXPECT_EQ(exposure("a_qs2x2a1.png", {}), 0);
+    EXPECT_EQ(exposure("a.gif", {}), 0);
+    EXPECT_EQ(exposure("views", {{"exposure", "auto"}}), 0);
+    EXPECT_EQ(exposure("a_qs2x2a1.png", {{"exposure", "0.5"}}), 0.5);
+    for (const char* wrong : {"0", "-1", "nan", "bright"})
+        EXPECT_THROW(exposure("views", {{"exposure", wrong}}), Error);
+}
+
+// The light field of a scene for a quilt, or the error.
+struct QuiltOfScene {
+    FromTexts<ExportParameters> views;
+    LightFieldParameters scene;
+    Parameters table;
+
+    QuiltOfScene(const std::string& output, const Metadata& of_views, const Metadata& of_scene) : views(of_views) {
+        scene.declare(table);
+        scene.declare_focal_plane(table);
+        for (const auto& [name, text] : of_scene) table.look_up(name)->read_value(text, name);
+        views.values.resolve(output);
+        views.values.set_cameras(scene, output, table);
+    }
+    std::string note(double low, double high) const {
+        Scene placed;
+        Mesh mesh;
+        mesh.positions = {{-1e-3, 0, low}, {1e-3, 0, high}, {0, 1e-3, low}};
+        mesh.triangles = {{0, 1, 2}};
+        placed.meshes.push_back(mesh);
+        return views.values.note_about_depth(placed, scene);
+    }
+};
+
+TEST(ExportParameters, of_a_quilt_make_its_cameras) {
+    const QuiltOfScene portrait("x_qs8x6a0.75.png", {}, {});
+    EXPECT_EQ(portrait.views.values.device, "lkg-portrait");
+    const LightFieldGrid grid = portrait.scene.grid();
+    EXPECT_EQ(std::pair(grid.hogels_s, grid.hogels_t), std::pair(std::size_t{420}, std::size_t{560}));
+    EXPECT_EQ(std::pair(grid.directions_u, grid.directions_v), std::pair(std::size_t{48}, std::size_t{1}));
+    ASSERT_NE(grid.focal_plane(), nullptr);
+    EXPECT_NEAR(grid.half_u(), std::tan(0.5 * 40 * 3.14159265358979 / 180), 1e-12);
+    EXPECT_NEAR(grid.step_v(), grid.step_u(), 1e-12);
+    EXPECT_NEAR(0.5 * grid.height() / -grid.focal_plane()->depth, std::tan(7 * 3.14159265358979 / 180), 1e-12);
+    // Square hogels are at least as fine as the pixels of tiles, which are not square.
+    const QuiltOfScene landscape("x_qs8x6a1.778.png", {{"device", "lkg-16-landscape"}}, {{"fov", "30deg"}});
+    EXPECT_EQ(landscape.scene.hogels, (Counts{1280, 720}));
+    EXPECT_NEAR(landscape.scene.field_of_view.across, 30 * 3.14159265358979 / 180, 1e-12);
+    const QuiltOfScene other("x_qs5x4a0.5.png", {}, {{"hogels", "30x60"}, {"focal-plane", "-50mm"}});
+    EXPECT_EQ(other.views.values.device, "");
+    EXPECT_EQ(other.scene.hogels, (Counts{30, 60}));
+    EXPECT_EQ(other.scene.directions, (Counts{20, 1}));
+    EXPECT_EQ(other.scene.focal_plane, -0.05);
+}
+
+TEST(ExportParameters, of_a_quilt_refuse_other_views) {
+    EXPECT_THROW(QuiltOfScene("x_qs8x6a0.75.png", {}, {{"directions", "48x2"}}), Error);
+    EXPECT_THROW(QuiltOfScene("x_qs8x6a0.75.png", {}, {{"hogels", "400x400"}}), Error);
+    EXPECT_NO_THROW(QuiltOfScene("x_qs8x6a0.75.png", {}, {{"hogels", "420x560"}, {"directions", "48x1"}}));
+    EXPECT_THROW(QuiltOfScene("x_qs.png", {{"layout", "quilt"}}, {}), Error);
+    EXPECT_THROW(QuiltOfScene("views", {{"device", "lkg-portait"}}, {}), Error);
+    EXPECT_THROW(QuiltOfScene("views", {{"device", "lkg-go"}, {"layout", "hci"}}, {}), Error);
+}
+
+// At the depths of the note, D = 108.59 mm, points move by 5 pixels of 20/420 mm between cameras 1.647 mm apart.
+TEST(ExportParameters, tell_the_depths_at_which_a_quilt_is_sharp) {
+    const QuiltOfScene portrait("x_qs8x6a0.75.png", {}, {});
+    const std::string depths =
+        "depths from -13.7 mm to 18.4 mm stay below 5 pixels of disparity between neighbouring views; ";
+    EXPECT_EQ(portrait.note(-18e-3, 13e-3), depths + "the scene spans -13 mm to 18 mm");
+    EXPECT_EQ(portrait.note(-18e-3, 30e-3), depths + "the scene spans -30 mm to 18 mm: --fov 15.7deg keeps it sharp");
+    QuiltOfScene file("x_qs8x6a0.75.png", {}, {});
+    file.scene.scene.is_file = true;
+    EXPECT_EQ(file.note(-30e-3, 0), depths + "the scene spans 0 mm to 30 mm: --front 0.43 keeps it sharp");
+    EXPECT_EQ(file.note(-50e-3, 0),
+              depths + "the scene spans 0 mm to 50 mm: --front 0.39 --fov 27deg keeps it sharp");
 }
 
 TEST(HologramParameters, of_a_scene_make_a_grid_of_its_size_for_each_wavelength) {

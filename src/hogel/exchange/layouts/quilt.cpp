@@ -2,7 +2,8 @@
 // Looking Glass quilts: one picture of rows and columns of tiles, name_qs8x6a0.75.png. The bottom left tile is the
 // leftmost view of a row of cameras; tiles run to the right, then up. The number after 'a' is the aspect of a view,
 // which differs from that of its tile if pixels are not square. Cameras are shifted, not rotated. A quilt has no camera
-// spacing: the view cone of the display is the field of view.
+// spacing: the view cone of the display is the field of view. Tiles have whole pixels: what does not divide is a margin
+// on the right and at the top, as in the maker's software.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
+#include "hogel/exchange/quilt_name.h"
 #include "hogel/exchange/view_set.h"
 #include "hogel/image/picture_bytes.h"
 #include "hogel/image/picture_formats.h"
@@ -21,11 +23,6 @@
 namespace hogel::exchange {
 namespace fs = std::filesystem;
 namespace {
-
-struct Tiling {
-    std::size_t columns = 0, rows = 0;
-    double aspect = 0;
-};
 
 template <class T>
 bool take(std::string_view& text, T& value) {
@@ -41,15 +38,16 @@ bool take_letter(std::string_view& text, char letter) {
     return true;
 }
 
-// Parses the tiling after the last "_qs" of a name, in any case; the aspect and any suffix are optional.
-std::optional<Tiling> tiling_of(const fs::path& path) {
+}  // namespace
+
+std::optional<QuiltTiling> quilt_tiling(const fs::path& path) {
     std::string stem = path.stem().string();
     std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::size_t tag = stem.rfind("_qs");
     if (tag == std::string::npos) return {};
     std::string_view text(stem);
     text.remove_prefix(tag + 3);
-    Tiling tiling;
+    QuiltTiling tiling;
     constexpr std::size_t max_tiles = 1000;
     if (!take(text, tiling.columns) || !take_letter(text, 'x') || !take(text, tiling.rows)) return {};
     if (take_letter(text, 'a') && !(take(text, tiling.aspect) && tiling.aspect > 0 && std::isfinite(tiling.aspect)))
@@ -58,15 +56,22 @@ std::optional<Tiling> tiling_of(const fs::path& path) {
     return fits ? std::optional(tiling) : std::nullopt;
 }
 
+bool is_same_aspect(double aspect, double other) {
+    constexpr double max_rounding = 1e-3;
+    return std::abs(aspect / other - 1) < max_rounding;
+}
+
+namespace {
+
 bool probe(const fs::path& source) {
     std::error_code none;
-    return fs::is_regular_file(source, none) && image::format_by_extension(source) != nullptr && tiling_of(source);
+    return fs::is_regular_file(source, none) && image::format_by_extension(source) != nullptr && quilt_tiling(source);
 }
 
 // Tiles of one picture, which stays in memory.
 class QuiltPictures final : public ViewPictures {
   public:
-    QuiltPictures(const fs::path& source, const Tiling& tiling) : source_(source), tiling_(tiling) {
+    QuiltPictures(const fs::path& source, const QuiltTiling& tiling) : source_(source), tiling_(tiling) {
         whole_ = image::read_picture(source, max_pixels);
         std::visit(
             [&](const auto& samples) {
@@ -89,8 +94,8 @@ class QuiltPictures final : public ViewPictures {
         return std::visit(
             [&](const auto& samples) {
                 std::remove_cvref_t<decltype(samples)> view({height_, width_, samples.extent(2)});
-                const std::size_t y0 = row * samples.extent(0) / tiling_.rows,
-                                  x0 = column % tiling_.columns * samples.extent(1) / tiling_.columns;
+                const std::size_t y0 = samples.extent(0) - (tiling_.rows - row) * height_,
+                                  x0 = column % tiling_.columns * width_;
                 for (std::size_t y = 0; y < height_; ++y)
                     std::copy_n(&samples(y0 + y, x0, 0), width_ * samples.extent(2), &view(y, 0, 0));
                 return image::Picture{std::move(view), {}, whole_.max_code};
@@ -103,15 +108,15 @@ class QuiltPictures final : public ViewPictures {
 
   private:
     fs::path source_;
-    Tiling tiling_;
+    QuiltTiling tiling_;
     image::Picture whole_;
     std::size_t width_ = 0, height_ = 0;
     bool divides_ = true;
 };
 
 ViewSet open(const fs::path& source, const ViewImportOptions& options) {
-    std::optional<Tiling> tiling = tiling_of(source);
-    if (options.columns > 0) tiling = Tiling{options.columns, options.rows, tiling ? tiling->aspect : 0};
+    std::optional<QuiltTiling> tiling = quilt_tiling(source);
+    if (options.columns > 0) tiling = QuiltTiling{options.columns, options.rows, tiling ? tiling->aspect : 0};
     if (!tiling)
         throw Error(ErrorCode::usage, "views",
                     fmt::format("{}: the name of a quilt ends like _qs8x6a0.75; with another name the "
@@ -123,7 +128,7 @@ ViewSet open(const fs::path& source, const ViewImportOptions& options) {
     set.rows = 1;
     if (!pictures->divides())
         set.notes.push_back(
-            fmt::format("the picture does not divide into {}x{} views; pixels at their edges are left out",
+            fmt::format("the picture does not divide into {}x{} views; pixels at its right and top are left out",
                         tiling->columns, tiling->rows));
     const double width = static_cast<double>(pictures->width()), height = static_cast<double>(pictures->height());
     if (tiling->aspect > 0)
@@ -148,27 +153,55 @@ std::size_t best_columns(const ViewTarget& target) {
     return best;
 }
 
-// Returns the columns of tiles given by the file name. Throws unless the name matches the number and aspect of the
-// views, because a reader has only the name to divide the picture.
-std::size_t columns_for(const ViewTarget& target) {
-    const double aspect = static_cast<double>(target.width) / static_cast<double>(target.height);
-    constexpr double max_rounding = 1e-3;  // of the aspect in a name, relative
-    const std::optional<Tiling> named = tiling_of(target.path);
-    if (named && named->columns * named->rows == target.columns && std::abs(named->aspect / aspect - 1) < max_rounding)
-        return named->columns;
+[[noreturn]] void fail_name(const ViewTarget& target, std::size_t columns, std::size_t rows, double aspect) {
+    throw Error(ErrorCode::usage, "",
+                fmt::format("{}: the name of this quilt must end like _qs{}x{}a{:.5g}.png, because the name alone says "
+                            "how it is divided",
+                            target.path.string(), columns, rows, aspect));
+}
+
+// Returns the tiling for a display. Throws unless it has a tile for each view, of the same aspect, and the file's name
+// agrees.
+QuiltTiling tiling_for(const QuiltDisplay& display, const ViewTarget& target, double aspect) {
+    if (display.columns * display.rows != target.columns)
+        throw Error(
+            ErrorCode::usage, "device",
+            fmt::format("a quilt for {} has {} views in a row, and the light field {}; render it with that many "
+                        "directions across, or interpolate an imported set by densify",
+                        display.name, display.columns * display.rows, target.columns));
+    constexpr double max_distortion = 0.01;
+    if (!(std::abs(aspect / display.aspect - 1) < max_distortion))
+        throw Error(ErrorCode::usage, "device",
+                    fmt::format("views for {} have an aspect (width/height) of {:.5g}, and those of the light field "
+                                "{:.5g}; render it with {}x{:.0f} hogels",
+                                display.name, display.aspect, aspect, display.tile_width(),
+                                static_cast<double>(display.tile_width()) / display.aspect));
+    return {display.columns, display.rows, display.aspect};
+}
+
+// Returns the tiling given by the file name. Throws unless the name matches the number and aspect of the views, because
+// a reader has only the name to divide the picture.
+QuiltTiling tiling_for(const ViewTarget& target) {
+    const double aspect =
+        static_cast<double>(target.width) / static_cast<double>(target.height) / target.geometry.pixel_height;
+    const std::optional<QuiltTiling> named = quilt_tiling(target.path);
+    if (target.display) {
+        const QuiltTiling tiling = tiling_for(*target.display, target, aspect);
+        if (!named || named->columns != tiling.columns || named->rows != tiling.rows ||
+            !is_same_aspect(named->aspect, tiling.aspect))
+            fail_name(target, tiling.columns, tiling.rows, tiling.aspect);
+        return tiling;
+    }
+    if (named && named->columns * named->rows == target.columns && is_same_aspect(named->aspect, aspect)) return *named;
     const std::size_t columns = best_columns(target);
-    throw Error(
-        ErrorCode::usage,
-        fmt::format("{}: the name of this quilt must end like _qs{}x{}a{:.5g}.png, because the name alone says how "
-                    "it is divided",
-                    target.path.string(), columns, target.columns / columns, aspect));
+    fail_name(target, columns, target.columns / columns, aspect);
 }
 
 class Writer final : public ViewWriter {
   public:
-    explicit Writer(const ViewTarget& target)
-        : target_(target), columns_(columns_for(target)), rows_(target.columns / columns_) {
-        const Shape<3> shape{rows_ * target.height, columns_ * target.width, target.channels};
+    explicit Writer(const ViewTarget& target) : target_(target), tiling_(tiling_for(target)) {
+        const Shape<3> shape{target.display ? target.display->height : tiling_.rows * target.height,
+                             target.display ? target.display->width : tiling_.columns * target.width, target.channels};
         if (target.bits <= 8)
             quilt_ = Array<std::uint8_t, 3>(shape);
         else if (target.bits <= 16)
@@ -178,10 +211,11 @@ class Writer final : public ViewWriter {
     }
 
     fs::path write(std::size_t, std::size_t column, const StoredView& view) override {
-        const std::size_t y0 = (rows_ - 1 - column / columns_) * target_.height, x0 = column % columns_ * target_.width;
         std::visit(
             [&](auto& all) {
                 const auto& from = std::get<std::remove_cvref_t<decltype(all)>>(view);
+                const std::size_t y0 = all.extent(0) - (column / tiling_.columns + 1) * target_.height,
+                                  x0 = column % tiling_.columns * target_.width;
                 for (std::size_t y = 0; y < target_.height; ++y)
                     std::copy_n(&from(y, 0, 0), target_.width * target_.channels, &all(y0 + y, x0, 0));
             },
@@ -196,17 +230,11 @@ class Writer final : public ViewWriter {
 
   private:
     ViewTarget target_;
-    std::size_t columns_, rows_;
+    QuiltTiling tiling_;
     StoredView quilt_;
 };
 
-std::unique_ptr<ViewWriter> create(const ViewTarget& target) {
-    if (target.rows > 1)
-        throw Error(
-            ErrorCode::usage, "layout",
-            fmt::format("a quilt holds one row of cameras; this light field has {} rows of views", target.rows));
-    return std::make_unique<Writer>(target);
-}
+std::unique_ptr<ViewWriter> create(const ViewTarget& target) { return std::make_unique<Writer>(target); }
 
 }  // namespace
 
@@ -214,6 +242,7 @@ ViewLayout quilt_layout() {
     return {.name = "quilt",
             .text = "NAME_qs8x6a0.75.png: one row of cameras as tiles from the bottom left (Looking Glass)",
             .is_folder = false,
+            .is_row = true,
             .written_at_once = true,
             .probe = probe,
             .open = open,
