@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "hogel/core/output_file.h"
-#include "hogel/core/part.h"
 #include "hogel/error.h"
 #include "hogel/files.h"
 #include "hogel/image.h"

@@ -2,6 +2,7 @@
 #include "hogel/pattern.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +158,18 @@ double light_field_efficiency_of(View<const Complex, 2> transmitted, View<const 
     return share.all > 0 ? share.light / share.all : 0;
 }
 
+// Describes a hologram with the modulator's pixels as samples: its hogels have 2, 4 or 8 of them on a side.
+std::string hologram_for(const Modulator& modulator) {
+    std::vector<std::string> hogels;
+    for (const std::size_t side : {2, 4, 8})
+        if (modulator.width % side == 0 && modulator.height % side == 0)
+            hogels.push_back(fmt::format("{}x{}", modulator.width / side, modulator.height / side));
+    if (hogels.empty()) hogels.push_back(fmt::format("{}x{}", modulator.width, modulator.height));
+    return fmt::format("make the hologram {} wide, with {} hogels and a pitch of {}",
+                       format_length(static_cast<double>(modulator.width) * modulator.pitch), fmt::join(hogels, " or "),
+                       format_length(modulator.pitch));
+}
+
 }  // namespace
 
 std::uint16_t patterns::Rounding::operator()(float value) const {
@@ -227,11 +240,9 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
                                 modulator.name));
     for (double pitch : {grid.plane.pitch_x, grid.plane.pitch_y})
         if (std::abs(pitch - modulator.pitch) > 1e-3 * modulator.pitch)
-            throw Error(
-                ErrorCode::usage, "pixel_pitch",
-                fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; make the "
-                            "hologram with hogels of whole pixels and a pitch of {}",
-                            format_length(pitch), format_length(modulator.pitch), format_length(modulator.pitch)));
+            throw Error(ErrorCode::usage, "pixel_pitch",
+                        fmt::format("the hologram's samples are {} apart, but the modulator's pixels {}; {}",
+                                    format_length(pitch), format_length(modulator.pitch), hologram_for(modulator)));
     if (!(options.clip >= 0 && options.clip < 1))
         throw Error(ErrorCode::usage, "clip", "the share of clipped samples must be at least 0 and below 1");
 }
