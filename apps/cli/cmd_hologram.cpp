@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "hogel/parameters.h"
+#include "hogel/pattern.h"
 #include "hogel/pipeline.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/units.h"
@@ -19,6 +20,7 @@ struct Options {
     std::string input, output;
     LightFieldParameters render;
     HologramParameters hologram;
+    std::string device;
     bool half = false, resume = false;
     PartOption part;
 
@@ -62,6 +64,11 @@ int hologram_of_scene(Options& options, const SceneHologramMethod& method, const
 
 int hologram(Options& options, const Session& session) {
     const InputKind kind = input_kind(options.input);
+    HologramParameters& wanted = options.hologram;
+    if (!options.device.empty()) {
+        wanted.method_given = true;
+        wanted.fit(find_modulator(options.device), options.render, wanted.method == "olas");
+    }
     if (const SceneHologramMethod* method = scene_hologram_methods().look_up(options.hologram.method)) {
         if (kind == InputKind::scene) return hologram_of_scene(options, *method, session);
         throw Error(ErrorCode::bad_input,
@@ -129,7 +136,8 @@ void add_hologram(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
     command.examples(
         "  hogel hologram pumpkin.h5 -o hologram.h5 --wavelength 633nm\n"
-        "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm");
+        "  hogel hologram pumpkin -o hologram.h5 --hogels 64x64 --size 4mm\n"
+        "  hogel hologram pumpkin -o hologram.h5 --device pluto --wavelength 532nm");
     command.basics(
         {"wavelength", "pitch", "method", "phase", "hogels", "directions", "size", "fov", "rotate", "light"});
     command.positional("input", options->input, "X.h5|SCENE", "Light field, picture, mesh file or built-in scene");
@@ -138,6 +146,13 @@ void add_hologram(Command& command, Session& session) {
     add_resume_flag(command, options->resume);
     add_part_option(command, options->part);
     options->hologram.declare_with_scene_methods(command);
+    command
+        .text("--device", options->device, "NAME",
+              "Modulator that will show the hologram: sets its pitch, and for a scene hogels, directions, size and "
+              "field of view, where no option does")
+        .knows(modulator_names())
+        .no_default()
+        .never_acts();
     options->render.declare(command);
     options->render.declare_hemicube(command);
     command.add_like_option();

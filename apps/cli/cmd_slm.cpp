@@ -119,6 +119,11 @@ void require_colours(const Options& options, const Fields& fields) {
     require_levels_name(options.output, options.pattern.modulator().levels - 1, fields.size());
 }
 
+Fields at_modulator(const Options& options, const Fields& fields, const Session& session) {
+    Stage stage(session, "propagation");
+    return options.pattern.at_modulator(fields, stage.progress());
+}
+
 Encoded encode_hologram(Options& options, const Session& session) {
     if (options.pattern.encoding == "supervised")
         throw Error(ErrorCode::usage, "encoding",
@@ -130,6 +135,7 @@ Encoded encode_hologram(Options& options, const Session& session) {
     Encoded encoded{open_and_reconstruct(session, options.input, options.field), {}};
     options.hologram.resolve(options.field);
     require_colours(options, encoded.fields);
+    encoded.fields = at_modulator(options, encoded.fields, session);
     Stage stage(session, "pattern");
     encoded.patterns = options.pattern.encode(encoded.fields, stage.progress());
     return encoded;
@@ -137,8 +143,8 @@ Encoded encode_hologram(Options& options, const Session& session) {
 
 // Makes holograms with samples of the modulator's pitch, and encodes them.
 Encoded encode_light_field(Options& options, InputKind kind, const Session& session) {
-    options.hologram.pitch = options.pattern.modulator().pitch;
-    options.hologram.pitch_given = true;
+    const bool is_supervised = options.pattern.encoding == "supervised";
+    options.hologram.fit(options.pattern.modulator(), options.render, !is_supervised);
     LightField light_field = with_common_directions(open_or_render(session, options.input, options.render));
     const HologramRequest request =
         options.hologram.request(light_field.grids(), session.seed, options.pattern.looks());
@@ -148,9 +154,43 @@ Encoded encode_light_field(Options& options, InputKind kind, const Session& sess
     options.hologram.resolve(request, light_field.grid());
     Encoded encoded{make_holograms(light_field, request), {}};
     require_colours(options, encoded.fields);
+    encoded.fields = at_modulator(options, encoded.fields, session);
     Stage stage(session, "pattern");
     encoded.patterns = options.pattern.encode(encoded.fields, light_field, request, stage.progress());
     return encoded;
+}
+
+// Reports the patterns of all wavelengths, and returns their results.
+ResultList report_patterns(const Encoded& made, const Modulator& modulator, const Session& session) {
+    const SuitablePatterns& encoded = made.patterns;
+    const std::size_t colours = made.fields.size();
+    ResultList patterns;
+    for (std::size_t c = 0; c < colours; ++c) {
+        const Pattern& pattern = encoded.patterns[c];
+        const double wavelength = made.fields[c]->grid().wavelength, per_cycle = wavelength / modulator.pitch;
+        report(pattern, wavelength, per_cycle, encoded.encoding, session);
+        Result result = result_of(pattern, wavelength, per_cycle, encoded.encoding);
+        if (!encoded.quality.empty()) {
+            report(encoded.quality[c], wavelength, session);
+            result.emplace_back("photographs", result_of(encoded.quality[c]));
+        }
+        patterns.push_back(std::move(result));
+    }
+    if (colours == 3) session.say(powers_of(std::span(encoded.patterns).first(colours)));
+    return patterns;
+}
+
+// Names a command that shows what an observer sees behind the aperture of a pattern made from a scene or light field.
+void suggest_a_look(const Options& options, const Pattern& pattern, const Session& session) {
+    const std::string extension = std::filesystem::path(options.output).extension().string();
+    if (extension != ".png" && extension != ".tif") return;
+    const Aperture& aperture = pattern.aperture;
+    const std::string order =
+        aperture.x == 0 && aperture.y == 0 ? "0" : fmt::format("{:.4f},{:.4f}", aperture.x, 0.0 - aperture.y);
+    session.say(
+        fmt::format("what it shows behind its aperture: hogel propagate {} -o look.png --distance {} "
+                    "--order={} --aperture {:.4f}",
+                    options.output, lengths_text({options.pattern.distance}), order, aperture.radius));
 }
 
 // Writes the patterns, one file for each that is shown in turn.
@@ -173,6 +213,8 @@ int slm(Options& options, const Session& session) {
     require_writable(options.output, {&options.input, 1});
     ResumableOutput resumable(session, options.resume, options.output,
                               options.resume ? describe_input(options.input) : "");
+    if (session.command->given("--pitch") && !session.command->given("--like"))
+        options.field.require_described(options.input);
     const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
     const bool is_automatic = options.pattern.encoding == "auto";
     Encoded made =
@@ -186,19 +228,7 @@ int slm(Options& options, const Session& session) {
     Metadata metadata = run_metadata(session);
     for (auto& entry : options.pattern.metadata(encoded, fields)) metadata.push_back(std::move(entry));
     for (const std::string& note : options.pattern.notes(fields)) session.say(note);
-    ResultList patterns;
-    for (std::size_t c = 0; c < colours; ++c) {
-        const Pattern& pattern = encoded.patterns[c];
-        const double wavelength = fields[c]->grid().wavelength, per_cycle = wavelength / modulator.pitch;
-        report(pattern, wavelength, per_cycle, encoded.encoding, session);
-        Result result = result_of(pattern, wavelength, per_cycle, encoded.encoding);
-        if (!encoded.quality.empty()) {
-            report(encoded.quality[c], wavelength, session);
-            result.emplace_back("photographs", result_of(encoded.quality[c]));
-        }
-        patterns.push_back(std::move(result));
-    }
-    if (colours == 3) session.say(powers_of(std::span(encoded.patterns).first(colours)));
+    const ResultList patterns = report_patterns(made, modulator, session);
     if (!is_root_rank()) return 0;
     std::vector<Array<std::uint16_t, 2>> sent = options.pattern.panel_levels(encoded, fields);
     for (std::size_t i = 0; i < sent.size(); ++i) encoded.patterns[i].levels = std::move(sent[i]);
@@ -207,6 +237,7 @@ int slm(Options& options, const Session& session) {
     session.say(fmt::format("{}: {}{}x{} pixels of {}", options.output,
                             frames == 1 ? "" : fmt::format("{} patterns of ", frames), modulator.width,
                             modulator.height, format_length(modulator.pitch)));
+    if (kind != InputKind::hologram && frames == 1) suggest_a_look(options, encoded.patterns[0], session);
     report_file(session, options.output,
                 {{"width", modulator.width},
                  {"height", modulator.height},
@@ -222,6 +253,7 @@ int slm(Options& options, const Session& session) {
 void add_slm(Command& command, Session& session) {
     auto options = std::make_shared<Options>();
     command.examples(
+        "  hogel slm photo.jpg -o pattern.png --device pluto --wavelength 520nm --distance 200mm\n"
         "  hogel hologram pumpkin -o f.h5 --hogels 60x33 --size 12.288mm --pitch 6.4um \\\n"
         "    --fov 2.5deg --wavelength 532nm\n"
         "  hogel slm f.h5 -o pattern.png --device leto --encoding double-phase\n"
@@ -229,7 +261,7 @@ void add_slm(Command& command, Session& session) {
     command.basics({"device", "pixels", "pixel-pitch", "levels", "encoding", "reference", "window", "phase-code",
                     "pitch", "wavelength"});
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
-                       "Hologram, light field, mesh file, built-in scene, or another program's field");
+                       "Hologram, light field, picture, mesh file, built-in scene, or another program's field");
     command
         .text("-o,--output", options->output, "FILE",
               "Pattern to write, levels without colour management:\n"

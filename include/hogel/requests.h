@@ -140,6 +140,7 @@ struct HOGEL_API LightFieldParameters {
     double size = defaults.size;  ///< width of the hologram, metres
     Angles field_of_view{defaults.field_of_view, defaults.field_of_view};
     bool field_of_view_given = false;  ///< otherwise a hemicube spans 180 degrees
+    bool hogels_given = false, directions_given = false, size_given = false;  ///< otherwise fit() may set them
     Angles toward;
     bool hemicube = false;
     double focal_plane = 0;          ///< depth of a fixed focal plane, metres
@@ -213,6 +214,7 @@ struct HOGEL_API PatternParameters {
     std::size_t levels = 256;       ///< per pixel
     std::string phase_code;         ///< for parse_phase_code(); empty: that of the device, or hogel
     std::size_t frames = 1;         ///< patterns shown in turn, for the encoding supervised
+    double distance = 0;            ///< of the hologram plane in front of the modulator, metres
     std::string lut, correction;    ///< files of a level table and a wavefront correction; empty: those of the device
     std::string flip;               ///< none, horizontal, vertical or both; empty: that of the device
     double lens = 0;                ///< focal length, metres; 0: none
@@ -230,6 +232,8 @@ struct HOGEL_API PatternParameters {
     std::vector<std::string> notes(const Fields& fields) const;
     /// Returns the options with modulator and phase code, and with the encoding unless it is auto. Throws Error(usage).
     PatternOptions options() const;
+    /// Returns the fields at the modulator: holograms, propagated back by `distance`. Throws as propagate() does.
+    Fields at_modulator(const Fields& fields, const Progress& progress = {}) const;
     /// Encodes the field of each wavelength. Throws as options() and encode_pattern() do.
     SuitablePatterns encode(const Fields& fields, const Progress& progress = {}) const;
     /// Returns the number of looks that encode() needs: one for each of the patterns that are shown in turn.
@@ -262,6 +266,7 @@ struct HOGEL_API HologramParameters {
     double pitch = defaults.pitch;                                                 ///< of the samples, metres
     bool pitch_given = false;        ///< false: request(faces, …) may select a smaller pitch
     std::string method = "fourier";  ///< name of a row of hologram_methods()
+    bool method_given = false;       ///< otherwise fit() may set method and phase
     std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
     std::string basis;                     ///< empty: that of the light field's coefficients, else cdf97
@@ -269,6 +274,14 @@ struct HOGEL_API HologramParameters {
     double spacing = defaults.spacing;     ///< of points on surfaces, metres
     std::size_t planes = defaults.planes;  ///< depth planes
     double lines = 0;  ///< distance of lines, metres, for the method lines; 0: the pitch of the samples
+
+    /// Fits the hologram of a scene to the pixels of a modulator, where options do not say otherwise: the pitch of the
+    /// samples, hogels of whole pixels that fill the panel, and a part of the shortest wavelength's band as field of
+    /// view.
+    /// @param smooth  true: a picture without speckle, by the method olas with zero phases; hogels of 2 pixels, 5x5
+    ///                directions, a quarter of the band, which double-phase encoding shows.
+    ///                false: random phases; hogels of 4 pixels, 9x9 directions, 7/8 of the band
+    void fit(const Modulator& modulator, LightFieldParameters& light_field, bool smooth);
 
     HologramMethod hologram_method() const;
     HologramRequest request(std::uint64_t seed, std::size_t looks) const;

@@ -39,7 +39,7 @@ void declare_hologram(Parameters& parameters, HologramParameters& options, const
                          "Pitch of the lines of --method lines or basis-lines (default: the sample pitch)")
         .no_default()
         .acts_if([&options] { return options.made_by && line_pitch(*options.made_by).has_value(); });
-    parameters.choice("--method", options.method, names, "NAME", help).acts_if(is_made);
+    parameters.choice("--method", options.method, names, "NAME", help).sets(options.method_given).acts_if(is_made);
     parameters
         .choice("--phase", options.phase, phase_names, "NAME",
                 "Phases of the directions of each hogel:\n"
@@ -121,6 +121,29 @@ struct Adjust {
 };
 
 }  // namespace
+
+void HologramParameters::fit(const Modulator& modulator, LightFieldParameters& light_field, bool smooth) {
+    // Double-phase encoding shows a quarter of the modulator's band. Other light needs a margin of half a lobe of eight
+    // pixels on each side.
+    const double share = smooth ? 1.0 / 4 : 7.0 / 8;
+    const std::size_t side = smooth ? 2 : 4, directions = smooth ? 5 : 9;
+    if (smooth && !method_given) {
+        method = "olas";
+        if (phase.empty()) phase = "fixed";
+    }
+    if (!pitch_given) pitch = modulator.pitch;
+    pitch_given = true;
+    Counts& hogels = light_field.hogels;
+    if (!light_field.hogels_given)
+        hogels = {std::max<std::size_t>(1, modulator.width / side), std::max<std::size_t>(1, modulator.height / side)};
+    const std::size_t pixels = std::max<std::size_t>(1, modulator.width / hogels.columns);
+    if (!light_field.size_given) light_field.size = static_cast<double>(hogels.columns * pixels) * modulator.pitch;
+    if (!light_field.directions_given) light_field.directions = {directions, directions};
+    if (light_field.field_of_view_given) return;
+    const double shortest = *std::ranges::min_element(wavelengths);
+    const double angle = 2 * std::asin(std::min(1.0, share * shortest / (2 * modulator.pitch)));
+    light_field.field_of_view = {angle, angle};
+}
 
 HologramMethod HologramParameters::hologram_method() const {
     const std::vector<std::string> known = transform_names();

@@ -120,15 +120,15 @@ void LightFieldParameters::declare(Parameters& parameters) {
         .flag("--cull-back-faces", fronts_only,
               "Show only the front of triangles, where their corners are in counterclockwise order")
         .acts_if(when_rendered);
-    parameters.counts("--hogels", hogels, "Hogels across and down");
-    parameters.counts("--directions", directions, "Directions across and down in each hogel").acts_if([this] {
-        return is_rendered && frequencies == 0;
-    });
+    parameters.counts("--hogels", hogels, "Hogels across and down").sets(hogels_given);
+    parameters.counts("--directions", directions, "Directions across and down in each hogel")
+        .sets(directions_given)
+        .acts_if([this] { return is_rendered && frequencies == 0; });
     parameters
         .counts("--samples", samples,
                 "Samples averaged for each ray: along a hogel's side and along a direction's; 2 is 2x2, 16 in all")
         .acts_if(when_rendered);
-    parameters.positive_length("--size", size, "Width of the hologram");
+    parameters.positive_length("--size", size, "Width of the hologram").sets(size_given);
     parameters.angles("--fov", field_of_view, "Field of view, full angle; or across and down")
         .sets(field_of_view_given)
         .acts_if(when_rendered);

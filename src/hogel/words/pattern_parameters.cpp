@@ -78,6 +78,10 @@ void declare_pattern(Parameters& parameters, PatternParameters& asked) {
             return is_one_of(asked.encoding, {Encoding::gerchberg_saxton, Encoding::gradient, Encoding::supervised});
         });
     parameters
+        .length("--distance", asked.distance,
+                "Distance of the hologram plane in front of the modulator, where the picture is in focus")
+        .acts_if([&asked] { return !is_one_of(asked.encoding, {Encoding::supervised}); });
+    parameters
         .count("--frames", asked.frames,
                "Supervised: number of patterns that are shown in turn, with less speckle together; the output is "
                "name####.png")
@@ -223,6 +227,26 @@ PatternOptions PatternParameters::options() const {
     chosen.phase_code = parse_phase_code(code());
     if (encoding != automatic_encoding) chosen.encoding = encodings().find(encoding).encoding;
     return chosen;
+}
+
+Fields PatternParameters::at_modulator(const Fields& fields, const Progress& progress) const {
+    if (distance == 0) return fields;
+    if (encoding != automatic_encoding && is_one_of(encoding, {Encoding::supervised}))
+        throw Error(ErrorCode::usage, "distance",
+                    "supervised shows the light field at the modulator; leave it out, and move the scene by move");
+    const Modulator& panel = modulator();
+    Fields moved;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        const FieldGrid& grid = fields[i]->grid();
+        PropagateOptions propagation;
+        propagation.output = Grid{panel.width,        panel.height,        grid.plane.pitch_x,
+                                  grid.plane.pitch_y, grid.plane.center_x, grid.plane.center_y};
+        auto field =
+            std::make_shared<Field>(propagate(*fields[i], -distance, propagation, progress.part(i, fields.size())));
+        field->set_provenance(fields[i]->provenance());
+        moved.push_back(std::move(field));
+    }
+    return moved;
 }
 
 SuitablePatterns PatternParameters::encode(const Fields& fields, const Progress& progress) const {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -121,6 +122,41 @@ TEST(PatternParameters, describe_one_modulator) {
     EXPECT_EQ(of({{"pixels", "65537x1"}, {"pixel-pitch", "8um"}}), "pixels");
     EXPECT_EQ(of({{"pixels", "8"}, {"pixel-pitch", "8um"}, {"levels", "65537"}}), "levels");
     EXPECT_EQ(of({{"device", "zeus"}}), "device");
+}
+
+// The hologram of a scene fits each modulator that hogel knows: samples of its pitch, and hogels of whole pixels that
+// fill it but for less than one.
+TEST(HologramParameters, fit_every_modulator) {
+    for (const Modulator& modulator : modulators().rows())
+        for (const bool smooth : {false, true}) {
+            HologramParameters hologram;
+            LightFieldParameters light_field;
+            hologram.wavelengths = {520e-9};
+            hologram.fit(modulator, light_field, smooth);
+            const LightFieldGrid grid = light_field.grid();
+            const FieldGrid made = hologram_grid({&grid, 1}, hologram.request(1, 1).options({520e-9, 1}, {&grid, 1}));
+            EXPECT_NEAR(made.plane.pitch_x / modulator.pitch, 1, 1e-12) << modulator.name;
+            EXPECT_NEAR(made.plane.pitch_y / modulator.pitch, 1, 1e-12) << modulator.name;
+            const double hogel = grid.pitch / modulator.pitch;
+            EXPECT_NEAR(hogel, std::round(hogel), 1e-9) << modulator.name;
+            EXPECT_LE(made.plane.width, modulator.width) << modulator.name;
+            EXPECT_GT(double(made.plane.width) + hogel, double(modulator.width)) << modulator.name;
+            EXPECT_GT(double(made.plane.height) + hogel, double(modulator.height)) << modulator.name;
+        }
+}
+
+TEST(HologramParameters, fit_keeps_what_is_given) {
+    HologramParameters hologram;
+    LightFieldParameters light_field;
+    light_field.hogels = {96, 54};
+    light_field.directions = {7, 3};
+    light_field.hogels_given = light_field.directions_given = true;
+    hologram.method_given = true;
+    hologram.fit(find_modulator("pluto"), light_field, true);
+    EXPECT_EQ(hologram.method, "fourier");
+    EXPECT_EQ(light_field.hogels, (Counts{96, 54}));
+    EXPECT_EQ(light_field.directions, (Counts{7, 3}));
+    EXPECT_NEAR(light_field.size, 1920 * 8e-6, 1e-12);
 }
 
 }  // namespace

@@ -174,8 +174,7 @@ TEST(ExportParameters, tell_the_depths_at_which_a_quilt_is_sharp) {
     QuiltOfScene file("x_qs8x6a0.75.png", {}, {});
     file.scene.scene.is_file = true;
     EXPECT_EQ(file.note(-30e-3, 0), depths + "the scene spans 0 mm to 30 mm: --front 0.43 keeps it sharp");
-    EXPECT_EQ(file.note(-50e-3, 0),
-              depths + "the scene spans 0 mm to 50 mm: --front 0.39 --fov 27deg keeps it sharp");
+    EXPECT_EQ(file.note(-50e-3, 0), depths + "the scene spans 0 mm to 50 mm: --front 0.39 --fov 27deg keeps it sharp");
 }
 
 TEST(HologramParameters, of_a_scene_make_a_grid_of_its_size_for_each_wavelength) {
