@@ -42,7 +42,7 @@ struct HOGEL_API SceneParameters {
     std::string texture;    ///< file name of a picture
     double point_size = 1;  ///< 1: discs that just close the surface
     std::string depth_map;  ///< file name of the depth map of a picture
-    std::string depth_values = "nearness";
+    std::string depth_values = "auto";
     std::optional<double> near, far;  ///< depths of that map, metres
 
     /// Returns the options of import_scene().
@@ -57,7 +57,7 @@ struct HOGEL_API SceneParameters {
     // Set by resolve().
     bool is_loaded = false;
     bool is_file = false;  ///< a file whose depth the front places; false: a built-in scene or a picture at its depths
-    bool is_lit = false, has_points = false;
+    bool is_lit = false, has_points = false, has_depth_map = false;
     bool has_background = true;
 };
 

@@ -195,6 +195,7 @@ inline constexpr std::string_view points_name = "points";
 
 /// Meaning of the values of a depth map.
 enum class DepthValues : std::uint8_t {
+    automatic,  ///< `distance` for a depth channel of the picture's own file, otherwise `nearness`
     nearness,  ///< the largest value is the nearest; depth is linear in the value
     distance,  ///< the largest value is the farthest; depth is linear in the value
     disparity  ///< the largest value is the nearest; the reciprocal of the distance from the viewpoint is linear in it
@@ -202,7 +203,7 @@ enum class DepthValues : std::uint8_t {
 
 /// Depths of a depth map. Depth is positive behind the hologram (docs/notation.md).
 struct DepthMapOptions {
-    DepthValues values = DepthValues::nearness;
+    DepthValues values = DepthValues::automatic;
     /// Depths of the nearest and the farthest value in the map, metres; both or none. Without them the depth range is a
     /// quarter of the picture's width, and LightFieldRequest::front places it.
     std::optional<double> near = {}, far = {};
@@ -229,8 +230,10 @@ struct ImportOptions {
     DepthMapOptions depths = {};           ///< of that map
 };
 
-/// Reads a picture file (read_image()) as scene_of_picture() does, with its alpha (PNG, TGA, WebP), or a mesh file.
-/// Throws Error(usage) for a depth map with a mesh file, and Error(bad_input) for a coloured depth map.
+/// Reads a picture file (read_image()) as scene_of_picture() does, with its alpha (PNG, TGA, WebP) and the channel Z or
+/// depth of an EXR file as depth map; a file of layers (.layers, docs/pictures.md); or a mesh file. Throws Error(usage)
+/// for a depth map with another file than a picture, and for depths of a picture without a depth map, and
+/// Error(bad_input) for a coloured depth map.
 ///
 /// Reads mesh files with assimp (OBJ, PLY, STL, glTF/GLB and more): positions, normals, vertex colours, base colours
 /// and base-colour textures, and glTF's materials and lights. All node transforms are applied; units and axes are those

@@ -144,7 +144,7 @@ class Scene:
         picture: Any,
         depth_map: Any = None,
         *,
-        depth_values: str = "nearness",
+        depth_values: str = "auto",
         near: Optional[units.Length] = None,
         far: Optional[units.Length] = None,
         name: str = "picture",

@@ -18,7 +18,7 @@ except ImportError:
     h5py = None  # then there are no files in chunks
 
 SMALL = "--hogels 3x2 --directions 4x3 -q".split()
-MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx", ".xyz", ".dat"]  # as in mesh_fuzz.cpp
+MESH_EXTENSIONS = [".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".fbx", ".xyz", ".dat", ".layers"]  # as in mesh_fuzz.cpp
 PICTURE_EXTENSIONS = [".png", ".exr", ".bmp", ".jpg", ".tga", ".gif", ".hdr", ".ppm", ".pfm"]  # as in picture_fuzz.cpp
 
 TRIANGLE = {
@@ -36,6 +36,7 @@ TRIANGLE = {
 
 # Further files: point clouds, and a document with looks, instances and lights.
 MORE_MESHES = {
+    "stack.layers": b'{"layers":[{"picture":"none.png","depth":"-5mm"},{"picture":"no.png","depth":0.01}]}',
     "points.xyz": b"# x y z r g b\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n1 1 0 9 9 9\n0 0 1 1 2 3\n1 0 1 1 2 3\n0 1 1 1 2 3\n",
     "points.ply": b"ply\nformat ascii 1.0\nelement vertex 7\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
                   b"0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n",

@@ -51,6 +51,7 @@ std::vector<FileFormat> mesh_rows() {
     add("dae", {".dae"}, "COLLADA");
     add("fbx", {".fbx"}, "Autodesk FBX");
     add("3ds", {".3ds"}, "Autodesk 3DS");
+    add("layers", {".layers"}, "pictures at depths, as JSON");
     return rows;
 }
 

@@ -165,16 +165,15 @@ void place_picture(Scene& scene, const LightFieldRequest& request) {
     const Fit fit{.width = request.grid.width(), .height = request.grid.height(), .fill = 1, .front = request.front};
     if (scene.units == SceneUnits::picture_widths) {
         fit_with_limited_front(scene, fit);
+        const Bounds box = bounds(scene);
+        scene.notes.push_back(fmt::format("its nearest point is {}, its farthest {}; --near and --far set both",
+                                          place_of(-box.high.z), place_of(-box.low.z)));
     } else {
         const Bounds box = bounds(scene);
         const double scale = scene::fit_scale(box.high - box.low, fit);
         for (Mesh& mesh : scene.meshes)
             for (Vec3& position : mesh.positions) position = {scale * position.x, scale * position.y, position.z};
     }
-    const Bounds box = bounds(scene);
-    if (box.high.z > box.low.z)
-        scene.notes.push_back(fmt::format("its nearest point is {}, its farthest {}; --near and --far set both",
-                                          place_of(-box.high.z), place_of(-box.low.z)));
     turn_scene(scene, request.pose);
 }
 

@@ -10,8 +10,11 @@ namespace hogel {
 Scene import_scene(const std::filesystem::path& path, const Progress& progress, const ImportOptions& options) {
     const core::StopScope scope(progress);
     if (scene::is_picture(path)) return scene::import_picture(path, options);
-    if (!options.depth_map.empty())
-        throw Error(ErrorCode::usage, "depth_map", fmt::format("{} is a mesh file; expected a picture", path.string()));
+    const char* const kind = scene::is_layers(path) ? "file of layers" : "mesh file";
+    if (!options.depth_map.empty() || options.depths.near || options.depths.far)
+        throw Error(ErrorCode::usage, options.depth_map.empty() ? "near, far" : "depth_map",
+                    fmt::format("{} is a {}; expected a picture", path.string(), kind));
+    if (scene::is_layers(path)) return scene::import_layers(path);
     return scene::import_mesh(path, options);
 }
 

@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <string_view>
 
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
+#include "hogel/image/channels.h"
 #include "hogel/image/picture_formats.h"
 #include "hogel/image/texture_picture.h"
 
@@ -152,6 +157,31 @@ Array<float, 2> read_depth_map(const std::filesystem::path& path) {
     return map;
 }
 
+/// Reads the channel Z or depth of an EXR file. Z is no depth beside the channels X and Y of its layer.
+std::optional<Array<float, 2>> read_depth_channel(const std::filesystem::path& path) {
+    std::array<char, 4> start{};
+    std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+    if (std::string_view(start.data(), start.size()) != "\x76\x2f\x31\x01") return std::nullopt;
+    const auto lower = [](std::string name) {
+        std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+        return name;
+    };
+    const auto find_depth = [&](const image::NamedChannels& file) {
+        return std::ranges::find_if(file.channels, [&](const auto& channel) {
+            const std::string name = lower(channel.first);
+            const std::size_t first = name.rfind('.') + 1;  // 0 without a layer
+            const std::string x = name.substr(0, first) + "x";
+            if (name.substr(first) == "depth") return true;
+            return name.substr(first) == "z" &&
+                   std::ranges::none_of(file.channels, [&](const auto& other) { return lower(other.first) == x; });
+        });
+    };
+    const image::NamedChannels names = image::read_named_channels(path, true);
+    if (find_depth(names) == names.channels.end()) return std::nullopt;
+    image::NamedChannels all = image::read_named_channels(path);
+    return std::move(all.channels[static_cast<std::size_t>(find_depth(all) - all.channels.begin())].second);
+}
+
 }  // namespace
 
 Scene scene_of_picture(Image picture) {
@@ -192,17 +222,26 @@ bool scene::is_picture(const std::filesystem::path& path) { return image::format
 
 Scene scene::import_picture(const std::filesystem::path& path, const ImportOptions& options) {
     Image picture = image::read_texture(path, image::TexturePixels::color_and_alpha);
+    DepthMapOptions depths = options.depths;
+    std::optional<Array<float, 2>> map;
+    if (!options.depth_map.empty()) {
+        map = read_depth_map(options.depth_map);
+    } else if ((map = read_depth_channel(path)) && depths.values == DepthValues::automatic) {
+        depths.values = DepthValues::distance;
+    }
     Scene scene;
-    if (options.depth_map.empty()) {
-        scene = scene_of_picture(std::move(picture));
-    } else {
-        const Array<float, 2> map = read_depth_map(options.depth_map);
+    if (map) {
         try {
-            scene = scene_of_picture(std::move(picture), map, options.depths);
+            scene = scene_of_picture(std::move(picture), *map, depths);
         } catch (const Error& error) {
             if (error.code() != ErrorCode::bad_input) throw;
-            throw Error(error.code(), fmt::format("{}: {}", options.depth_map.string(), error.what()));
+            const std::filesystem::path& file = options.depth_map.empty() ? path : options.depth_map;
+            throw Error(error.code(), fmt::format("{}: {}", file.string(), error.what()));
         }
+    } else if (depths.near || depths.far) {
+        throw Error(ErrorCode::usage, "near, far", fmt::format("{} has no depth map", path.string()));
+    } else {
+        scene = scene_of_picture(std::move(picture));
     }
     scene.name = path.stem().string();
     return scene;

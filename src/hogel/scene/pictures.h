@@ -35,8 +35,12 @@ Relief continuation_behind_edges(const Relief& front, const Image& picture);
 /// Returns whether import_scene() reads a file as a picture, by its extension.
 bool is_picture(const std::filesystem::path& path);
 
-/// Implements import_scene() for pictures and for mesh files.
+/// Returns whether import_scene() reads a file as layers, by its extension.
+bool is_layers(const std::filesystem::path& path);
+
+/// Implements import_scene() for pictures, layers and mesh files.
 Scene import_picture(const std::filesystem::path& path, const ImportOptions& options);
+Scene import_layers(const std::filesystem::path& path);
 Scene import_mesh(const std::filesystem::path& path, const ImportOptions& options);
 
 }  // namespace hogel::scene

@@ -132,11 +132,10 @@ ImportOptions SceneParameters::import_options() const {
     ImportOptions options;
     options.point_size = point_size;
     options.depth_map = depth_map;
-    if (depth_map.empty() && (near || far))
-        throw Error(ErrorCode::usage, "near, far", "are depths of a depth map; add depth-map");
-    options.depths.values = depth_values == "distance"    ? DepthValues::distance
+    options.depths.values = depth_values == "nearness"    ? DepthValues::nearness
+                            : depth_values == "distance"  ? DepthValues::distance
                             : depth_values == "disparity" ? DepthValues::disparity
-                                                          : DepthValues::nearness;
+                                                          : DepthValues::automatic;
     options.depths.near = near;
     options.depths.far = far;
     return options;
@@ -145,6 +144,7 @@ ImportOptions SceneParameters::import_options() const {
 void SceneParameters::resolve(const Scene& loaded, bool is_from_file) {
     is_loaded = true;
     is_file = is_from_file && loaded.units != SceneUnits::depths;
+    has_depth_map = !depth_map.empty() || near || loaded.units == SceneUnits::picture_widths;
     is_lit = std::ranges::any_of(loaded.meshes, [](const Mesh& mesh) { return mesh.radiance.empty(); });
     has_points = std::ranges::any_of(loaded.meshes, [](const Mesh& mesh) { return mesh.name == points_name; });
 }
@@ -192,12 +192,15 @@ void SceneParameters::declare(Parameters& parameters) {
         .no_default()
         .acts_if([this] { return has_points; });
     parameters
-        .text("--depth-map", depth_map, "FILE", "Depth map of a picture: grey values, one for each pixel or block")
+        .text("--depth-map", depth_map, "FILE",
+              "Depth map of a picture: grey values, one for each pixel or block (default: the channel Z or depth of an "
+              "EXR picture)")
         .no_default();
-    const auto has_map = [this] { return !depth_map.empty(); };
+    const auto has_map = [this] { return has_depth_map; };
     parameters
-        .choice("--depth-values", depth_values, {"nearness", "distance", "disparity"}, "KIND",
+        .choice("--depth-values", depth_values, {"auto", "nearness", "distance", "disparity"}, "KIND",
                 "Meaning of the depth map's values:\n"
+                "auto: distance for a depth channel of the picture's own file, otherwise nearness\n"
                 "nearness: the largest are the nearest, depth is linear in the value\n"
                 "distance: the largest are the farthest, depth is linear in the value\n"
                 "disparity: the largest are the nearest, the reciprocal distance from the eye at 300 mm is linear")

@@ -9,12 +9,9 @@
 #include <string>
 #include <string_view>
 
-namespace hogel::scene::mesh_files {
+#include "hogel/scene/find_in_folder.h"
 
-/// Resolves an untrusted relative path or URI to a regular file in the folder or below, following symbolic links. Tries
-/// the name, then URI decoding ("my%20wood.png"), then other case. Returns nothing if there is no such file.
-/// @param folder  canonical
-std::optional<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, const std::string& name);
+namespace hogel::scene::mesh_files {
 
 /// File access of assimp, restricted to regular files in one folder and below, in the child process. Raises the child's
 /// memory and time limits in proportion to the size of each opened file.
