@@ -110,7 +110,8 @@ FileSummary summarize_views(const std::string& path, const Progress& progress) {
 FileSummary summarize_any(const std::string& path, const Progress& progress) {
     if (const auto run = run_of_make(path)) {
         FileSummary summary;
-        summary.text = {{"kind", "run of hogel make"}};
+        const auto command = std::ranges::find(*run, "command", &Metadata::value_type::first);
+        summary.text = {{"kind", "run of " + (command == run->end() ? std::string("hogel make") : command->second)}};
         summary.text.insert(summary.text.end(), run->begin(), run->end());
         return summary;
     }

@@ -22,6 +22,7 @@ namespace {
 bool is_output_of_a_run(const std::string& name) {
     for (const char* file : {"report.json", "report.html", "lightfield.h5", "hologram.h5"})
         if (name == file) return true;
+    if (name.starts_with("part_")) return true;
     for (const char* beginning : {"photo_", "hogel_", "row_"})
         if (name.starts_with(beginning) && (name.ends_with(".png") || name.ends_with(".exr"))) return true;
     return false;

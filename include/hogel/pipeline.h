@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -241,18 +242,37 @@ HOGEL_API SampleComparison compare(const Fields& a, const Fields& b, const Progr
 struct PrinterImageOptions {
     bool rows = false;       ///< true: one picture per row of hogels, side by side; false: one per hogel
     bool serpentine = true;  ///< every second row from right to left, for print heads that move both ways
-    double exposure = 1;     ///< factor of linear values, the same for all pictures
-    /// In addition to the light field's provenance; only in pictures of rows, because pictures of hogels are numerous.
+    bool planes = false;     ///< a grey picture for each channel instead of one in colours
+    bool mirror_columns = false, mirror_rows = false;  ///< of the directions in a hogel's picture
+    bool transpose = false;                            ///< exchanges columns and rows of directions, after the mirror
+    double exposure = 1;  ///< factor of linear values, the same for all pictures; 0: automatic_exposure()
+    std::array<double, 3> dose{1, 1, 1};       ///< factors of R, G and B in addition to the exposure
+    unsigned bits = 8;                         ///< of samples: 8 or 16
+    Transfer transfer = Transfer::srgb;        ///< from light to samples
+    std::vector<double> table = {};            ///< samples, 0 to 1, of evenly spaced light from 0 to 1, for `transfer`
+    bool circle = false;                       ///< directions outside the ellipse in the picture are black
+    Array<float, 2> mask = Array<float, 2>();  ///< factors 0 to 1 [v][u], scaled to the directions; empty: none
+    /// In addition to the light field's provenance; only in the manifest and in pictures of rows, because pictures of
+    /// hogels are numerous.
     Metadata metadata = {};
 };
 
+/// The result of write_printer_images().
+struct PrinterImages {
+    std::size_t pictures = 0;
+    std::filesystem::path first, last;  ///< in printing order
+    std::filesystem::path manifest;     ///< manifest.json, docs/printing.md
+    double exposure = 1;
+    std::uint64_t bytes = 0;                 ///< of the pictures
+    std::uint64_t samples = 0, clipped = 0;  ///< samples of the pictures, and those brighter than white
+};
+
 /// Writes the directions of each hogel of the front as PNG files in a folder, numbered in printing order
-/// ("hogel_0001.png", or "row_001.png"). Returns their names. Throws Error(usage) for an exposure that is not positive,
-/// and Error(cannot_write).
-HOGEL_API std::vector<std::filesystem::path> write_printer_images(const std::filesystem::path& folder,
-                                                                  const LightField& light_field,
-                                                                  const PrinterImageOptions& options,
-                                                                  const Progress& progress = {});
+/// ("hogel_0001.png", or "row_001.png"), and manifest.json. Above 4,096 pictures they are in folders ("part_0001"), one
+/// a row of hogels. A ResumeScope continues with the first incomplete folder. Throws Error(usage) for an exposure, dose
+/// or table that is not positive, Error(bad_input) for radiance that is not finite, and Error(cannot_write).
+HOGEL_API PrinterImages write_printer_images(const std::filesystem::path& folder, const LightField& light_field,
+                                             const PrinterImageOptions& options, const Progress& progress = {});
 
 /// Checks an output before work begins. Throws Error(cannot_write) if its folder is missing or not writable or if it is
 /// not a regular file, and Error(usage) if it is one of `inputs` (files or names of scenes).

@@ -110,9 +110,14 @@ struct HOGEL_API ExportParameters {
 
 /// Pictures for a hologram printer.
 struct HOGEL_API PrintParameters {
-    PrinterImageOptions images;  ///< except `serpentine` and `metadata`
-    std::string order = "serpentine";
+    PrinterImageOptions images;  ///< `rows`, `planes` and `transpose` only; options() makes the others of these:
+    std::string order = "serpentine", mirror = "none", transfer = "srgb", exposure = "1", dose = "1,1,1";
+    std::size_t bits = 8;
+    std::string mask;   ///< "circle", or file name of a picture; empty: none
+    std::string table;  ///< file name; empty: none
 
+    /// Returns the options of write_printer_images(). Reads the files of mask and table. Throws Error(usage), and as
+    /// read_raw_pixels() does.
     PrinterImageOptions options() const;
     void declare(Parameters& parameters);
 };

@@ -18,6 +18,12 @@ void declare_light_field(LightFieldParameters& light_field, Parameters& table) {
     light_field.declare_directions(table);
 }
 
+// Declares the parameters of commands that use a single face.
+void declare_one_face(LightFieldParameters& light_field, Parameters& table) {
+    light_field.declare(table);
+    light_field.declare_focal_plane(table);
+}
+
 // Parameters of Scene.render(), from keywords.
 struct LightFieldKeywords {
     LightFieldParameters values;
@@ -104,12 +110,9 @@ std::vector<std::pair<std::string, std::vector<std::string>>> command_parameters
                             field.code_option = "--input-phase-code";
                             declare_field(field, table);
                         })},
-            {"print", Order{"input"}.of<PrintParameters>()},
+            {"print", Order{"input"}.of<PrintParameters>().of<LightFieldParameters>(declare_one_face)},
             {"bake", Order{"scene"}.of<BakeParameters>()},
-            {"export", Order{"input"}.of<ExportParameters>().of<LightFieldParameters>([](auto& scene, auto& table) {
-                 scene.declare(table);
-                 scene.declare_focal_plane(table);
-             })},
+            {"export", Order{"input"}.of<ExportParameters>().of<LightFieldParameters>(declare_one_face)},
             {"import", Order{"source", "depth", "float", "sqnr"}.of<ImportParameters>()}};
 }
 

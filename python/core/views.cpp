@@ -70,6 +70,15 @@ void add_printer_images(py::module_& module) {
     module.def(
         "print_record", [](const py::dict& keywords) { return PrintKeywords(keywords).table.acting(); },
         arg("keywords"));
+    py::class_<PrinterImages>(module, "PrinterImages")
+        .def_readonly("pictures", &PrinterImages::pictures)
+        .def_readonly("first", &PrinterImages::first)
+        .def_readonly("last", &PrinterImages::last)
+        .def_readonly("manifest", &PrinterImages::manifest)
+        .def_readonly("exposure", &PrinterImages::exposure)
+        .def_readonly("bytes", &PrinterImages::bytes)
+        .def_readonly("samples", &PrinterImages::samples)
+        .def_readonly("clipped", &PrinterImages::clipped);
     module.def(
         "write_printer_images",
         [](const std::filesystem::path& folder, const LightField& light_field, const py::dict& keywords,

@@ -120,13 +120,14 @@ def film(
 @takes(_core.print_keywords())
 def write_printer_images(
     light_field: Rays, folder: Path, *, force: bool = False, metadata: Any = None, progress: Progress = None, **options: Any
-) -> list[str]:
-    """Writes a picture of the directions of every hogel, numbered in the order of printing, as `hogel print` does. With
-    strips=True each picture contains a row of hogels side by side. Returns the files.
+) -> _core.PrinterImages:
+    """Writes a picture of the directions of every hogel, numbered in the order of printing, and manifest.json, as `hogel
+    print` does. With strips=True each picture contains a row of hogels side by side. Returns pictures (their number), first,
+    last, manifest, exposure, bytes, samples and clipped (samples brighter than white).
 
     >>> import hogel, os, tempfile
     >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
-    >>> len(hogel.exports.write_printer_images(lf, os.path.join(tempfile.mkdtemp(), "prints")))
+    >>> hogel.exports.write_printer_images(lf, os.path.join(tempfile.mkdtemp(), "prints"), dose=(1, 0.8, 0.6)).pictures
     64
     """
     name = os.fspath(folder)
@@ -134,8 +135,7 @@ def write_printer_images(
     if metadata is None:
         metadata = _record.by_function("LightField.print")
         if light_field._made is not None:
-            metadata = _record.entries("print", {**light_field._made, **acted})
+            metadata = _record.entries("print", {**_record.renamed(light_field._made, "scene", "input"), **acted})
     _make_folder(name, force)
     with reporting(progress, "pictures") as report:
-        made = _core.write_printer_images(name, light_field._light_field, options, metadata, report)
-    return [os.fspath(file) for file in made]
+        return _core.write_printer_images(name, light_field._light_field, options, metadata, report)

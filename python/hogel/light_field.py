@@ -302,12 +302,12 @@ class LightField(Rays):
         return export_views(self, target, **options)
 
     @passes_options_to(write_printer_images)
-    def print(self, folder: Path, **options: Any) -> list[str]:
+    def print(self, folder: Path, **options: Any) -> _core.PrinterImages:
         """Writes the pictures for a hologram printer: see hogel.exports.write_printer_images().
 
         >>> import hogel, os, tempfile
         >>> lf = hogel.Scene.load("pumpkin").render(hogels=8, directions=8, size="0.4mm")
-        >>> len(lf.print(os.path.join(tempfile.mkdtemp(), "prints"), strips=True))
+        >>> lf.print(os.path.join(tempfile.mkdtemp(), "prints"), strips=True).pictures
         8
         """
         return write_printer_images(self, folder, **options)

@@ -261,10 +261,15 @@ class SameBytes(InFolder):
     def test_print(self):
         command_line("render", "pumpkin", "-o", "lf.h5", *SMALL)
         for strips in (False, True):
-            words = ["--strips", "--order", "rows"] if strips else []
+            words = ["--strips", "--order", "rows", "--dose", "1,0.8,0.6", "--mask", "circle"] if strips else []
+            options = dict(strips=True, order="rows", dose=(1, 0.8, 0.6), mask="circle") if strips else {}
             command_line("print", "lf.h5", "-o", f"c{strips}", *words)
-            hogel.LightField.open("lf.h5").print(f"p{strips}", strips=strips, order="rows" if strips else "serpentine")
-            self.assert_same_folders(f"c{strips}", f"p{strips}", 12 if strips else 192)
+            made = hogel.LightField.open("lf.h5").print(f"p{strips}", **options)
+            self.assertEqual(made.pictures, 12 if strips else 192)
+            self.assert_same_folders(f"c{strips}", f"p{strips}", 13 if strips else 193)
+        command_line("print", "pumpkin", "-o", "cscene", *SMALL, "--exposure", "auto")
+        self.rendered().print("pscene", exposure="auto")
+        self.assert_same_folders("cscene", "pscene", 193)
 
     def assert_same_folders(self, a, b, number):
         names = sorted(path.name for path in Path(a).iterdir())

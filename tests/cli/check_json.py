@@ -75,7 +75,7 @@ TABLE = [
     ("slm s.h5 -o slm.bmp --pixels 64x48 --pixel-pitch 6.4um --encoding binary",
      SLM | {"patterns": [PATTERN | {"reference_angle_deg": REAL}]}),
     ("print x.h5 -o hogels", {"folder": WORD, "bytes": COUNT, "pictures": COUNT, "first": WORD, "last": WORD,
-                              "exposure": REAL, "seconds": REAL}),
+                              "exposure": REAL, "samples": COUNT, "clipped": COUNT, "seconds": REAL}),
     ("export x.h5 -o views --layout numbered", {"folder": WORD, "bytes": COUNT, "layout": WORD, "views_across": COUNT,
                                                 "views_down": COUNT, "files": COUNT, "exposure": NUMBER, "seconds": REAL}),
     ("export x.h5 -o views.npy --layout npy", FILE | {"layout": WORD, "views_across": COUNT, "views_down": COUNT, "files": COUNT,

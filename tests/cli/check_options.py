@@ -74,7 +74,7 @@ TABLE = [
     ("export x.h5 -o w", "--layout=hci --layout=zoo --layout=quilt --pictures=gif --bits=7 --bits=17 --transfer=x --exposure=0"),
     ("export x.h5 -o w --pictures exr", "--bits=8"),
     ("view x.h5 --no-browser", "--port=70000 --port=x --host=0.0.0.0 --token=short --token=with/slash/0123456789 --memory=0 --memory=x"),
-    ("print x.h5 -o w", "--exposure=0 --exposure=nan --order=none"),
+    ("print x.h5 -o w", "--exposure=0 --exposure=nan --order=none --bits=12 --dose=1 --dose=1,1,-1 --table=none --mirror=x"),
     ("compare x.h5 x.hgl", "--min-psnr=x --min-sqnr=nan"),
 ]
 

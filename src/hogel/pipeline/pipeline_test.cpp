@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "hogel/error.h"
+#include "hogel/resume.h"
 #include "hogel/units.h"
 
 namespace hogel::pipeline {
@@ -255,6 +256,105 @@ TEST_F(Pipeline, a_printer_is_given_directions_in_common) {
     EXPECT_EQ(hogel.width(), common_directions(grid).directions_u);
     EXPECT_EQ(hogel.height(), common_directions(grid).directions_v);
     EXPECT_GT(hogel.width(), 8u);
+}
+
+// Light that differs in every ray, below white.
+double light_of(std::size_t c, std::size_t t, std::size_t s, std::size_t v, std::size_t u) {
+    return static_cast<double>((c * 7 + t * 11 + s * 13 + v * 17 + u * 19) % 97) / 100;
+}
+
+LightFieldBuffer distinct_rays(const LightFieldGrid& grid) {
+    LightFieldBuffer rays(grid);
+    for (std::size_t c = 0; c < grid.channels; ++c)
+        for (std::size_t t = 0; t < grid.hogels_t; ++t)
+            for (std::size_t s = 0; s < grid.hogels_s; ++s)
+                for (std::size_t v = 0; v < grid.directions_v; ++v)
+                    for (std::size_t u = 0; u < grid.directions_u; ++u)
+                        rays.radiance(c, t, s, v, u) = static_cast<float>(light_of(c, t, s, v, u));
+    return rays;
+}
+
+TEST_F(Pipeline, pictures_for_printers_are_the_rays_by_every_option) {
+    const LightFieldGrid grid{3, 2, 1_mm, 5, 4, Perspective{0.1, 0.1}, 3};
+    const LightFieldBuffer rays = distinct_rays(grid);
+    for (int bits = 0; bits < 32; ++bits) {
+        const bool columns = bits & 1, rows = bits & 2, transpose = bits & 4, planes = bits & 8, table = bits & 16;
+        PrinterImageOptions options{
+            .planes = planes, .mirror_columns = columns, .mirror_rows = rows, .transpose = transpose};
+        options.dose = {1, 0.5, 2};
+        options.bits = table ? 16 : 8;
+        options.transfer = Transfer::linear;
+        if (table) options.table = {1, 0.5, 0};
+        options.circle = true;
+        const PrinterImages made = write_printer_images(folder_, borrow(rays), options);
+        EXPECT_EQ(made.pictures, 6u);
+        EXPECT_EQ(made.samples, 6u * 60);
+        std::uint64_t clipped = 0;
+        for (std::size_t number = 0; number < 6; ++number) {
+            const std::size_t t = number / 3, s = t == 0 ? number : 5 - number;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::string plane = planes ? std::string("_") + "rgb"[c] : "";
+                const RawChannels picture =
+                    read_raw_channels(folder_ / ("hogel_" + std::to_string(number + 1) + plane + ".png"));
+                for (std::size_t v = 0; v < 4; ++v)
+                    for (std::size_t u = 0; u < 5; ++u) {
+                        const bool is_corner = (u == 0 || u == 4) && (v == 0 || v == 3);
+                        const double light = is_corner ? 0 : light_of(c, t, s, v, u) * options.dose[c];
+                        clipped += light > 1 ? 1 : 0;
+                        std::size_t x = columns ? 4 - u : u, y = rows ? 3 - v : v;
+                        if (transpose) std::swap(x, y);
+                        const double shown = std::min(light, 1.0);
+                        ASSERT_NEAR(picture.values(y, x, planes ? 0 : c) / static_cast<double>(picture.largest),
+                                    table ? 1 - shown : shown, table ? 1e-5 : 2e-3);
+                    }
+            }
+        }
+        EXPECT_EQ(made.clipped, clipped);
+        EXPECT_GT(clipped, 0u);
+    }
+}
+
+// Counts the rows that are read, and fails at the given one.
+class FailingRays final : public LightFieldSource {
+  public:
+    FailingRays(const LightFieldBuffer& rays, std::size_t fails_at) : rays_(rays), fails_at_(fails_at) {}
+    const LightFieldGrid& grid() const override { return rays_.grid(); }
+    void read(LightFieldTile& tile) const override {
+        if (tile.range.t0 == fails_at_) throw Error(ErrorCode::bad_input, "unreadable");
+        ++rows;
+        rays_.read(tile);
+    }
+    mutable std::size_t rows = 0;
+
+  private:
+    const LightFieldBuffer& rays_;
+    std::size_t fails_at_;
+};
+
+TEST_F(Pipeline, more_than_4096_pictures_are_in_folders_and_continue_with_the_first_that_is_missing) {
+    const LightFieldGrid grid{70, 59, 1_mm, 1, 1, Perspective{0.1, 0.1}, 1};
+    const LightFieldBuffer rays = distinct_rays(grid);
+    const FailingRays failing(rays, 40), whole(rays, 1000);
+    const auto print = [&](const LightFieldSource& source) {
+        ResumeScope scope(folder_ / "print.part", {"print"});
+        const PrinterImages made = write_printer_images(folder_ / "plate", borrow(source), {});
+        scope.complete();
+        return made;
+    };
+    EXPECT_THROW(print(failing), Error);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "plate/part_40/hogel_2800.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "plate/manifest.json"));
+    const PrinterImages made = print(whole);
+    EXPECT_EQ(whole.rows, 19u);
+    EXPECT_EQ(made.samples, 70u * 59);
+    EXPECT_EQ(made.last, folder_ / "plate/part_59/hogel_4130.png");
+    std::uint64_t bytes = 0;
+    for (std::size_t number = 1; number <= 4130; ++number) {
+        const std::string part = std::to_string((number - 1) / 70 + 1), name = std::to_string(number);
+        bytes += std::filesystem::file_size(folder_ / "plate" / ("part_" + std::string(2 - part.size(), '0') + part) /
+                                            ("hogel_" + std::string(4 - name.size(), '0') + name + ".png"));
+    }
+    EXPECT_EQ(made.bytes, bytes);
 }
 
 TEST_F(Pipeline, radiance_that_is_not_finite_is_refused_by_place) {

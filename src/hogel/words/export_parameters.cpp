@@ -21,6 +21,21 @@ std::string layout_for(const std::filesystem::path& output) {
     return output.has_extension() && output.stem().string().find("_qs") != std::string::npos ? "quilt" : "rows-columns";
 }
 
+// Return lines of help.
+std::string list_of_layouts() {
+    std::string lines;
+    for (const ViewLayout& layout : view_layouts().rows())
+        if (layout.create != nullptr) lines += fmt::format("\n{}: {}", layout.name, layout.text);
+    return lines;
+}
+std::string list_of_displays() {
+    std::string lines;
+    for (const QuiltDisplay& display : quilt_displays().rows())
+        lines += fmt::format("\n{}: {}x{} pixels, _qs{}x{}a{:.5g}", display.name, display.width, display.height,
+                             display.columns, display.rows, display.aspect);
+    return lines;
+}
+
 // Returns the first display whose quilts have this name; empty: none.
 std::string display_named(const exchange::QuiltTiling& tiling) {
     for (const QuiltDisplay& display : quilt_displays().rows())
@@ -179,22 +194,15 @@ std::string ExportParameters::note_about_depth(const Scene& placed, const LightF
 void ExportParameters::declare(Parameters& parameters) {
     const auto is_set = [this] { return !is_film; };
     parameters.group("Views");
-    std::string layouts;
-    for (const ViewLayout& layout : view_layouts().rows())
-        if (layout.create != nullptr) layouts += fmt::format("\n{}: {}", layout.name, layout.text);
     parameters
         .text("--layout", views.layout, "NAME",
               "Layout of the stored views; an ending .npy, .mat or _qs8x6a0.75.png of the output selects its own" +
-                  layouts)
+                  list_of_layouts())
         .sets(layout_given)
         .acts_if(is_set);
-    std::string displays;
-    for (const QuiltDisplay& display : quilt_displays().rows())
-        displays += fmt::format("\n{}: {}x{} pixels, _qs{}x{}a{:.5g}", display.name, display.width, display.height,
-                                display.columns, display.rows, display.aspect);
     parameters
         .text("--device", device, "NAME",
-              "Display of a quilt (default: of a scene, the first with the tiles of the name):" + displays)
+              "Display of a quilt (default: of a scene, the first with the tiles of the name):" + list_of_displays())
         .no_default()
         .knows(quilt_displays().names())
         .acts_if([this] { return is_quilt(); });
