@@ -196,9 +196,9 @@ inline constexpr std::string_view points_name = "points";
 /// Meaning of the values of a depth map.
 enum class DepthValues : std::uint8_t {
     automatic,  ///< `distance` for a depth channel of the picture's own file, otherwise `nearness`
-    nearness,  ///< the largest value is the nearest; depth is linear in the value
-    distance,  ///< the largest value is the farthest; depth is linear in the value
-    disparity  ///< the largest value is the nearest; the reciprocal of the distance from the viewpoint is linear in it
+    nearness,   ///< the largest value is the nearest; depth is linear in the value
+    distance,   ///< the largest value is the farthest; depth is linear in the value
+    disparity   ///< the largest value is the nearest; the reciprocal of the distance from the viewpoint is linear in it
 };
 
 /// Depths of a depth map. Depth is positive behind the hologram (docs/notation.md).

@@ -98,7 +98,7 @@ class Pattern:
             _core.write_levels(name, self.levels, largest, entries)
             return
         if "#" not in os.path.basename(name):
-            raise UsageError(f"save: {name}: expected name####.png for {len(self.levels)} patterns")
+            raise UsageError(f"{name}: expected name####.png for {len(self.levels)} patterns")
         for frame, levels in enumerate(self.levels):
             _core.write_levels(numbered(name, frame), levels, largest, entries)
 

@@ -76,9 +76,8 @@ void PrintParameters::declare(Parameters& parameters) {
         "Order of the hogels:\nserpentine: every second row from the right\nrows: all rows from the left");
     parameters.choice("--mirror", mirror, {"none", "columns", "rows", "both"}, "WHICH",
                       "Reverse the order of columns, rows or both of a hogel's picture");
-    parameters.flag(
-        "--transpose", images.transpose,
-        "Exchange columns and rows of a hogel's picture, after --mirror; with rows it turns clockwise");
+    parameters.flag("--transpose", images.transpose,
+                    "Exchange columns and rows of a hogel's picture, after --mirror; with rows it turns clockwise");
     parameters
         .text("--mask", mask, "circle|FILE",
               "Aperture of a hogel's picture: black outside the largest ellipse, or factors in a grey picture")
