@@ -17,8 +17,8 @@ class Command;
 /// @return names of the parameters that were set
 std::vector<std::string> take_like(Command& command, const std::string& file);
 
-/// Returns the run stored by `hogel make` in the report of a folder, or in a JSON file: report.json, or manifest.json of
-/// `hogel print`; nothing for other paths.
+/// Returns the run stored by `hogel make` in the report of a folder, or in a JSON file: report.json, or manifest.json
+/// of `hogel print`; nothing for other paths.
 std::optional<Metadata> run_of_make(const std::filesystem::path& path);
 
 /// Returns the command line stored in a file's metadata, without its output: "hogel render pumpkin --hogels 64x64".
