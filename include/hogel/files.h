@@ -192,8 +192,7 @@ HOGEL_API void require_levels_name(const std::filesystem::path& path, std::size_
                                    std::size_t channels = 1);
 
 /// Writes drive levels of a modulator, levels[y][x][c], of 8 bits if `largest`, the largest level, is at most 255, else
-/// of
-/// 16. The file appears under its name when it is complete. Throws Error(usage), Error(not_built_in) and
+/// of 16. The file appears under its name when it is complete. Throws Error(usage), Error(not_built_in) and
 /// Error(cannot_write).
 /// - pictures: as write_raw_pixels()
 /// - .npy: an array [y][x], or [c][y][x] of several channels

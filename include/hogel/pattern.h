@@ -179,10 +179,9 @@ struct SupervisedPatterns {
 /// Computes the phase patterns of a light field whose photographs through pupils are nearest to those by rays: descent
 /// of the error of random pupils, on the phases that the modulator can show. Pattern::efficiency and Pattern::power are
 /// those of the quality, the aperture surrounds the light field's directions, and the measures that compare a pattern
-/// with a field are 0. Memory: arrays of the modulator's size for
-/// each look, and one channel of the light field. Ranks (communicator.h) encode one field each at a time; all return
-/// all patterns. Throws Error(usage) as encode_pattern() does, for directions that the modulator does not show, and for
-/// fewer than 3x3 directions.
+/// with a field are 0. Memory: arrays of the modulator's size for each look, and one channel of the light field. Ranks
+/// (communicator.h) encode one field each at a time; all return all patterns. Throws Error(usage) as encode_pattern()
+/// does, for directions that the modulator does not show, and for fewer than 3x3 directions.
 /// @param fields       holograms of the light field, where the descent starts, one per wavelength; one pattern is made
 ///                     of each look, so looks should have independent phases
 /// @param light_field  its depth gives the range of focus

@@ -28,47 +28,36 @@ struct Pictures {
     float peak = 0;  // largest amplitude by rays in the interior
 };
 
-class Examination {
-  public:
-    Examination(const PupilCamera& camera, std::span<const Array<Complex, 2>> spectra)
-        : camera_(camera), spectra_(spectra) {}
+Pictures photograph(const PupilCamera& camera, std::span<const Array<Complex, 2>> spectra, const Pupil& pupil) {
+    const Shape<2> shape = camera.film(pupil).shape();
+    Pictures pictures{Array<float, 2>(shape), Array<float, 2>(shape)};
+    std::vector<Array<Complex, 2>> fields;
+    for (std::size_t f = 0; f < spectra.size(); ++f) fields.emplace_back(shape);
+    camera.photograph_rays(pupil, pictures.amplitudes);
+    camera.photograph_waves(spectra, pupil, fields, pictures.intensity);
+    const Region region = camera.interior(pupil);
+    for (std::size_t y = region.y0; y < region.y0 + region.height; ++y)
+        for (std::size_t x = region.x0; x < region.x0 + region.width; ++x)
+            pictures.peak = std::max(pictures.peak, pictures.amplitudes(y, x));
+    return pictures;
+}
 
-    Pictures photograph(const Pupil& pupil) const {
-        const Shape<2> shape = camera_.film(pupil).shape();
-        Pictures pictures{Array<float, 2>(shape), Array<float, 2>(shape)};
-        std::vector<Array<Complex, 2>> fields;
-        for (std::size_t f = 0; f < spectra_.size(); ++f) fields.emplace_back(shape);
-        camera_.photograph_rays(pupil, pictures.amplitudes);
-        camera_.photograph_waves(spectra_, pupil, fields, pictures.intensity);
-        const Region region = camera_.interior(pupil);
-        for (std::size_t y = region.y0; y < region.y0 + region.height; ++y)
-            for (std::size_t x = region.x0; x < region.x0 + region.width; ++x)
-                pictures.peak = std::max(pictures.peak, pictures.amplitudes(y, x));
-        return pictures;
-    }
-
-  private:
-    const PupilCamera& camera_;
-    std::span<const Array<Complex, 2>> spectra_;
-};
-
-// Sums over a window of two pictures a and b.
+// Sums over a window of the amplitudes a by waves and b by rays.
 struct Window {
     double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
 };
 
 constexpr std::size_t side = 8;  // of a window, samples
 
-// Calls visit(window) for windows side by side.
-// @param factor  of the amplitudes by waves, which are a; those by rays are b
+// Calls visit(window, first row, first column) for windows side by side.
 template <class Visit>
-void for_windows(const Pictures& pictures, const Region& region, double factor, const Visit& visit) {
+void for_windows(const Pictures& pictures, const Region& region, const Visit& visit) {
     for (std::size_t y0 = region.y0; y0 + side <= region.y0 + region.height; y0 += side)
         for (std::size_t x0 = region.x0; x0 + side <= region.x0 + region.width; x0 += side) {
             Window window;
             for (std::size_t y = y0; y < y0 + side; ++y)
                 for (std::size_t x = x0; x < x0 + side; ++x) {
-                    const double a = factor * std::sqrt(pictures.intensity(y, x)), b = pictures.amplitudes(y, x);
+                    const double a = std::sqrt(pictures.intensity(y, x)), b = pictures.amplitudes(y, x);
                     window.a += a, window.b += b, window.aa += a * a, window.bb += b * b, window.ab += a * b;
                 }
             visit(window, y0, x0);
@@ -76,10 +65,12 @@ void for_windows(const Pictures& pictures, const Region& region, double factor, 
 }
 
 // Wang, Bovik, Sheikh and Simoncelli, Image quality assessment, IEEE Trans. Image Processing 13(4), 2004, (13).
-double similarity(const Window& sums, double peak) {
+// @param factor  of the amplitudes by waves
+double similarity(const Window& sums, double factor, double peak) {
     constexpr double n = side * side;
-    const double c1 = 1e-4 * peak * peak, c2 = 9e-4 * peak * peak, a = sums.a / n, b = sums.b / n;
-    const double variance_a = sums.aa / n - a * a, variance_b = sums.bb / n - b * b, covariance = sums.ab / n - a * b;
+    const double c1 = 1e-4 * peak * peak, c2 = 9e-4 * peak * peak, a = factor * sums.a / n, b = sums.b / n;
+    const double variance_a = factor * factor * sums.aa / n - a * a, variance_b = sums.bb / n - b * b;
+    const double covariance = factor * sums.ab / n - a * b;
     return (2 * a * b + c1) * (2 * covariance + c2) / ((a * a + b * b + c1) * (variance_a + variance_b + c2));
 }
 
@@ -88,7 +79,7 @@ double similarity(const Window& sums, double peak) {
 double contrast_of(const Pictures& pictures, const Region& region) {
     constexpr double n = side * side;
     double flattest = std::numeric_limits<double>::max(), contrast = 0;
-    for_windows(pictures, region, 1, [&](const Window& sums, std::size_t y0, std::size_t x0) {
+    for_windows(pictures, region, [&](const Window& sums, std::size_t y0, std::size_t x0) {
         const double b = sums.b / n, variation = (sums.bb / n - b * b) / std::max(b * b, 1e-30);
         if (b < 0.5 * pictures.peak || variation >= flattest) return;
         flattest = variation;
@@ -132,6 +123,37 @@ bool is_in_middle(const Pupil& pupil, const PupilRange& range) {
                       (pupil.aperture.y - range.directions.y) / range.half_y) < 1.0 / 3;
 }
 
+// What the photographs through one pupil contribute, before the brightness factor of all pupils is known.
+struct Sample {
+    PhotographSums sums;
+    std::vector<Window> windows;
+    double peak = 0, contrast = 0;
+    bool is_middle = false;
+
+    double psnr(double factor) const {
+        const double error = factor * factor * sums.aa - 2 * factor * sums.ab + sums.bb;
+        return 10 * std::log10(static_cast<double>(sums.samples) * peak * peak / error);
+    }
+    double ssim(double factor) const {
+        double sum = 0;
+        for (const Window& window : windows) sum += similarity(window, factor, peak);
+        return windows.empty() ? 0 : sum / static_cast<double>(windows.size());
+    }
+};
+
+Sample sample_of(const PupilCamera& camera, std::span<const Array<Complex, 2>> spectra, const Pupil& pupil) {
+    const Pictures pictures = photograph(camera, spectra, pupil);
+    const Region region = camera.interior(pupil);
+    Sample sample;
+    sample.sums = camera.sums(pupil, pictures.intensity, pictures.amplitudes);
+    for_windows(pictures, region,
+                [&](const Window& window, std::size_t, std::size_t) { sample.windows.push_back(window); });
+    sample.peak = pictures.peak;
+    sample.contrast = contrast_of(pictures, region);
+    sample.is_middle = is_in_middle(pupil, camera.range());
+    return sample;
+}
+
 }  // namespace
 
 namespace patterns {
@@ -144,40 +166,24 @@ PupilQuality pupil_quality(std::span<const Pattern> patterns, const PupilCamera&
         spectra.push_back(transmission(pattern, options.encoding, options.phase_code));
         fft.forward(spectra.back());
     }
-    const Examination examination(camera, spectra);
     PhotographSums all;
-    std::vector<PhotographSums> sums;
+    std::vector<Sample> samples;
     for (std::uint32_t i = 0; i < pupils; ++i) {
-        progress.report(0.5 * i / pupils);
-        const Pupil pupil = camera.range().draw(test_sequence, i);
-        const Pictures pictures = examination.photograph(pupil);
-        sums.push_back(camera.sums(pupil, pictures.intensity, pictures.amplitudes));
-        all += sums.back();
+        progress.report(static_cast<double>(i) / pupils);
+        samples.push_back(sample_of(camera, spectra, camera.range().draw(test_sequence, i)));
+        all += samples.back().sums;
     }
     PupilQuality quality{.lowest_psnr = std::numeric_limits<double>::max()};
     std::size_t in_middle = 0;
     const double factor = all.factor();
-    for (std::uint32_t i = 0; i < pupils; ++i) {
-        progress.report(0.5 + 0.5 * i / pupils);
-        const Pupil pupil = camera.range().draw(test_sequence, i);
-        const Region region = camera.interior(pupil);
-        const Pictures pictures = examination.photograph(pupil);
-        const double error = factor * factor * sums[i].aa - 2 * factor * sums[i].ab + sums[i].bb;
-        const double psnr =
-            10 * std::log10(static_cast<double>(sums[i].samples) * pictures.peak * pictures.peak / error);
+    for (const Sample& sample : samples) {
+        const double psnr = sample.psnr(factor);
         quality.psnr += psnr / pupils;
         quality.lowest_psnr = std::min(quality.lowest_psnr, psnr);
-        const bool is_middle = is_in_middle(pupil, camera.range());
-        in_middle += is_middle ? 1 : 0;
-        (is_middle ? quality.psnr_middle : quality.psnr_outside) += psnr;
-        double similarities = 0;
-        std::size_t windows = 0;
-        for_windows(pictures, region, factor, [&](const Window& window, std::size_t, std::size_t) {
-            similarities += similarity(window, pictures.peak);
-            ++windows;
-        });
-        if (windows > 0) quality.ssim += similarities / static_cast<double>(windows) / pupils;
-        quality.contrast += contrast_of(pictures, region) / pupils;
+        in_middle += sample.is_middle ? 1 : 0;
+        (sample.is_middle ? quality.psnr_middle : quality.psnr_outside) += psnr;
+        quality.ssim += sample.ssim(factor) / pupils;
+        quality.contrast += sample.contrast / pupils;
     }
     if (in_middle > 0) quality.psnr_middle /= static_cast<double>(in_middle);
     if (in_middle < pupils) quality.psnr_outside /= static_cast<double>(pupils - in_middle);
