@@ -167,7 +167,8 @@ std::vector<Pair> pairs_of(const ViewSet& set, bool along_y, double parallax) {
     const std::size_t views = along_y ? set.rows : set.columns;
     if (views < 2) return {};
     constexpr double max_search = 20, max_apart = 4;
-    const double inside = std::clamp(static_cast<double>((views - 1) / 2), 1.0, max_apart);
+    const std::size_t half = (views - 1) / 2;
+    const double inside = std::clamp(static_cast<double>(half), 1.0, max_apart);
     const auto apart =
         static_cast<std::size_t>(std::clamp(std::floor(max_search / std::max(parallax, 0.1)), 1.0, inside));
     const std::size_t middle = (views - 1) / 2;
@@ -200,8 +201,9 @@ CrossParallax cross_parallax(View<const float, 2> a, View<const float, 2> b, boo
     std::vector<Sample> samples;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         if (!shifts[i]) continue;
-        const double x = 2 * static_cast<double>(blocks[i].x + block / 2) / static_cast<double>(a.extent(1)) - 1;
-        const double y = 2 * static_cast<double>(blocks[i].y + block / 2) / static_cast<double>(a.extent(0)) - 1;
+        const std::size_t column = blocks[i].x + block / 2, row = blocks[i].y + block / 2;
+        const double x = 2 * static_cast<double>(column) / static_cast<double>(a.extent(1)) - 1;
+        const double y = 2 * static_cast<double>(row) / static_cast<double>(a.extent(0)) - 1;
         samples.push_back({{1, along_y ? y : x, along_y ? x : y, x * y}, *shifts[i]});
     }
     if (samples.size() < min_blocks) return {};

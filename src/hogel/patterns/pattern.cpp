@@ -177,7 +177,10 @@ std::uint16_t patterns::Rounding::operator()(float value) const {
     unsigned level = 0;
     if (phases) {  // phases wrap around from the last level to the first
         double turns = value;
-        if (is_spread) turns = rounded(value * static_cast<float>(levels)) % levels * 256 / levels / 256.0;
+        if (is_spread) {
+            const unsigned byte = rounded(value * static_cast<float>(levels)) % levels * 256 / levels;
+            turns = byte / 256.0;
+        }
         level = code.level(2 * std::numbers::pi * turns, largest());
     } else {
         level = rounded(value * static_cast<float>(levels - 1));

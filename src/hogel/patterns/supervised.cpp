@@ -70,7 +70,7 @@ class Descent {
   private:
     Complex phasor(float cycles) const {
         const auto levels = static_cast<float>(phasors_.size());
-        const auto level = static_cast<std::size_t>(cycles * levels + 0.5f);
+        const auto level = static_cast<std::size_t>(std::lround(cycles * levels));
         return phasors_[level < phasors_.size() ? level : 0];
     }
 

@@ -286,7 +286,7 @@ TEST_F(Pipeline, pictures_for_printers_are_the_rays_by_every_option) {
         options.transfer = Transfer::linear;
         if (table) options.table = {1, 0.5, 0};
         options.circle = true;
-        const PrinterImages made = write_printer_images(folder_, borrow(rays), options);
+        PrinterImages made = write_printer_images(folder_, borrow(rays), options);
         EXPECT_EQ(made.pictures, 6u);
         EXPECT_EQ(made.samples, 6u * 60);
         std::uint64_t clipped = 0;
@@ -337,7 +337,7 @@ TEST_F(Pipeline, more_than_4096_pictures_are_in_folders_and_continue_with_the_fi
     const FailingRays failing(rays, 40), whole(rays, 1000);
     const auto print = [&](const LightFieldSource& source) {
         ResumeScope scope(folder_ / "print.part", {"print"});
-        const PrinterImages made = write_printer_images(folder_ / "plate", borrow(source), {});
+        PrinterImages made = write_printer_images(folder_ / "plate", borrow(source), {});
         scope.complete();
         return made;
     };

@@ -226,8 +226,9 @@ Scene scene::import_picture(const std::filesystem::path& path, const ImportOptio
     std::optional<Array<float, 2>> map;
     if (!options.depth_map.empty()) {
         map = read_depth_map(options.depth_map);
-    } else if ((map = read_depth_channel(path)) && depths.values == DepthValues::automatic) {
-        depths.values = DepthValues::distance;
+    } else {
+        map = read_depth_channel(path);
+        if (map && depths.values == DepthValues::automatic) depths.values = DepthValues::distance;
     }
     Scene scene;
     if (map) {

@@ -85,8 +85,9 @@ class ReliefMesh {
         for (std::size_t i = first; i < first + count; ++i) {
             const std::size_t pixel = pixels[i % 4];
             sum += relief_.nearness[pixel];
-            column += static_cast<float>(pixel % relief_.width) + 0.5f;
-            row += static_cast<float>(pixel / relief_.width) + 0.5f;
+            const std::size_t pixel_x = pixel % relief_.width, pixel_y = pixel / relief_.width;
+            column += static_cast<float>(pixel_x) + 0.5f;
+            row += static_cast<float>(pixel_y) + 0.5f;
             if (!relief_.colors.empty()) color += relief_.colors[pixel];
             corners_[pixel][(i + 2) % 4] = vertex;  // the corner opposite to the pixel's place around it
         }

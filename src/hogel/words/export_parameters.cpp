@@ -169,7 +169,7 @@ std::string ExportParameters::note_about_depth(const Scene& placed, const LightF
     const Bounds box = bounds(placed);
     double front = std::max(box.high.z, 0.0), behind = std::max(-box.low.z, 0.0);
     const auto length = [](double metres) { return format_length(std::stod(fmt::format("{:.3g}", metres))); };
-    const std::string note = fmt::format(
+    std::string note = fmt::format(
         "depths from {} to {} stay below {} pixels of disparity between neighbouring views; the scene spans {} to {}",
         length(-sharp.front), std::isfinite(sharp.behind) ? length(sharp.behind) : "infinity", max_disparity,
         length(-box.high.z), length(-box.low.z));

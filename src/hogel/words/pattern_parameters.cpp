@@ -208,11 +208,11 @@ std::vector<Array<std::uint16_t, 2>> PatternParameters::panel_levels(const Suita
     PatternOptions chosen = options();
     chosen.encoding = encoded.encoding;
     const PanelOptions added = panel();
-    std::vector<Array<std::uint16_t, 2>> levels;
+    std::vector<Array<std::uint16_t, 2>> panels;
     for (std::size_t i = 0; i < encoded.patterns.size(); ++i)
-        levels.push_back(
+        panels.push_back(
             hogel::panel_levels(encoded.patterns[i], chosen, added, fields[i % fields.size()]->grid().wavelength));
-    return levels;
+    return panels;
 }
 
 std::vector<std::string> PatternParameters::notes(const Fields& fields) const {

@@ -146,8 +146,8 @@ std::size_t best_columns(const ViewTarget& target) {
     double least = INFINITY;
     for (std::size_t columns = 1; columns <= n; ++columns) {
         if (n % columns != 0) continue;
-        const double ratio =
-            static_cast<double>(columns * target.width) / static_cast<double>(n / columns * target.height);
+        const std::size_t rows = n / columns;
+        const double ratio = static_cast<double>(columns * target.width) / static_cast<double>(rows * target.height);
         if (std::abs(std::log(ratio)) < least) least = std::abs(std::log(ratio)), best = columns;
     }
     return best;

@@ -28,7 +28,7 @@ class Import : public testing::Test {
     void TearDown() override { fs::remove_all(folder_); }
 
     fs::path write(const std::string& name, const std::string& bytes) {
-        const fs::path path = folder_ / "meshes" / name;
+        fs::path path = folder_ / "meshes" / name;
         std::ofstream(path, std::ios::binary) << bytes;
         return path;
     }
@@ -37,7 +37,7 @@ class Import : public testing::Test {
         try {
             import_scene(path);
         } catch (const Error& error) {
-            const std::string message = error.what();
+            std::string message = error.what();
             EXPECT_EQ(error.code(), ErrorCode::bad_input) << message;
             EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             EXPECT_EQ(message.find(path.string() + ": "), 0u) << message;
