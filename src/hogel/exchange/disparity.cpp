@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/exchange/disparity.h"
+#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -56,12 +57,6 @@ DisparityMap median(const DisparityMap& map) {
     return out;
 }
 
-std::string lower_name(const fs::path& path) {
-    std::string name = path.filename().string();
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    return name;
-}
-
 struct Candidate {
     fs::path path;
     bool depth = false;
@@ -74,7 +69,7 @@ std::vector<Candidate> candidates(const fs::path& folder) {
     std::vector<Candidate> found;
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = lower_name(entry.path());
+        const std::string name = core::lower_case(entry.path().filename().string());
         const bool disparity = name.find("disp") != std::string::npos, depth = name.find("depth") != std::string::npos;
         const bool array = name.ends_with(".pfm") || name.ends_with(".exr") || name.ends_with(".npy");
         const bool codes =
@@ -134,7 +129,7 @@ std::optional<DisparityMap> read_codes(const fs::path& path, double scale) {
 }
 
 DisparityMap read_map(const fs::path& path) {
-    if (lower_name(path).ends_with(".npy")) return read_npy(path);
+    if (core::lower_case_extension(path) == ".npy") return read_npy(path);
     const image::Picture picture = image::read_picture(path, max_pixels);
     const auto* samples = std::get_if<Array<float, 3>>(&picture.samples);
     if (samples == nullptr) fail_source(path, "a map holds floating-point numbers");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/exchange/file_names.h"
+#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <system_error>
@@ -123,8 +123,7 @@ struct NumberInName {
 
 // Returns whether the name denotes derived pictures instead of camera views: disparity, depth, labels, thumbnails.
 bool is_map(const std::string& shape) {
-    std::string name = shape;
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string name = core::lower_case(shape);
     for (const char* word : {"disp", "depth", "label", "mask", "objectid", "normal", "thumb", "preview"})
         if (name.find(word) != std::string::npos) return true;
     return false;

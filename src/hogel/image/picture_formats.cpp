@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/image/picture_formats.h"
+#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "hogel/core/part.h"
 #include "hogel/error.h"
@@ -78,8 +78,7 @@ const std::vector<PictureFormat>& picture_formats() {
 }
 
 const PictureFormat* format_by_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string extension = core::lower_case_extension(path);
     for (const PictureFormat& format : picture_formats())
         if (std::ranges::count(format.extensions, extension) > 0) return &format;
     return nullptr;

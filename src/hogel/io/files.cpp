@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/files.h"
+#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -75,14 +75,9 @@ std::vector<FileFormat> all_formats() {
     return rows;
 }
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 // Returns the format with this file extension, built in or not.
 std::optional<FileFormat> format_of_name(const std::filesystem::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = core::lower_case_extension(path);
     if (extension.empty()) return std::nullopt;
     std::vector<FileFormat> rows = file_formats().rows();
     std::ranges::move(mesh_rows(), std::back_inserter(rows));
@@ -98,7 +93,7 @@ std::optional<FileFormat> format_of_name(const std::filesystem::path& path) {
 
 // Only pictures and meshes are recognised by name.
 FileKind kind_by_extension(const std::filesystem::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = core::lower_case_extension(path);
     for (const FileFormat& format : file_formats().rows())
         if (std::ranges::count(format.extensions, extension) > 0)
             for (const FileKind kind : format.reads)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/scene/find_in_folder.h"
+#include "hogel/core/lower_case.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
 namespace hogel::scene {
@@ -27,10 +27,6 @@ std::string percent_decoded(const std::string& text) {
 /// Finds a path in a folder ignoring case; the first by name if several match.
 std::optional<std::filesystem::path> find_in_other_case(const std::filesystem::path& folder,
                                                         const std::filesystem::path& name) {
-    const auto lower = [](std::string text) {
-        std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-        return text;
-    };
     std::filesystem::path current = folder;
     for (const std::filesystem::path& part : name) {
         std::error_code error;
@@ -41,7 +37,8 @@ std::optional<std::filesystem::path> find_in_other_case(const std::filesystem::p
         std::optional<std::filesystem::path> found;
         for (std::filesystem::directory_iterator entry(current, error), end; !error && entry != end;
              entry.increment(error))
-            if (lower(entry->path().filename().string()) == lower(part.string()) && (!found || entry->path() < *found))
+            if (core::lower_case(entry->path().filename().string()) == core::lower_case(part.string()) &&
+                (!found || entry->path() < *found))
                 found = entry->path();
         if (!found) return std::nullopt;
         current = *found;

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
 #include "hogel/core/json.h"
+#include "hogel/core/lower_case.h"
 #include "hogel/error.h"
 #include "hogel/image/texture_picture.h"
 #include "hogel/printable.h"
@@ -105,11 +105,7 @@ class LayersReader {
 
 }  // namespace
 
-bool is_layers(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return extension == ".layers";
-}
+bool is_layers(const std::filesystem::path& path) { return core::lower_case_extension(path) == ".layers"; }
 
 Scene import_layers(const std::filesystem::path& path) {
     const LayersReader reader(path);

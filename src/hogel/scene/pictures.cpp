@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/scene/pictures.h"
+#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -162,18 +163,15 @@ std::optional<Array<float, 2>> read_depth_channel(const std::filesystem::path& p
     std::array<char, 4> start{};
     std::ifstream(path, std::ios::binary).read(start.data(), start.size());
     if (std::string_view(start.data(), start.size()) != "\x76\x2f\x31\x01") return std::nullopt;
-    const auto lower = [](std::string name) {
-        std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-        return name;
-    };
     const auto find_depth = [&](const image::NamedChannels& file) {
         return std::ranges::find_if(file.channels, [&](const auto& channel) {
-            const std::string name = lower(channel.first);
+            const std::string name = core::lower_case(channel.first);
             const std::size_t first = name.rfind('.') + 1;  // 0 without a layer
             const std::string x = name.substr(0, first) + "x";
             if (name.substr(first) == "depth") return true;
-            return name.substr(first) == "z" &&
-                   std::ranges::none_of(file.channels, [&](const auto& other) { return lower(other.first) == x; });
+            return name.substr(first) == "z" && std::ranges::none_of(file.channels, [&](const auto& other) {
+                       return core::lower_case(other.first) == x;
+                   });
         });
     };
     const image::NamedChannels names = image::read_named_channels(path, true);

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/program.h"
 #include "hogel/core/raw_file.h"
@@ -24,8 +24,7 @@ constexpr std::size_t max_frames = 1000;
 constexpr std::uint64_t max_decoded = std::uint64_t{8} << 30;
 
 bool probe(const fs::path& source) {
-    std::string ending = source.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = core::lower_case_extension(source);
     static const std::string endings[] = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi", ".gif", ".apng"};
     std::error_code none;
     return std::ranges::count(endings, ending) > 0 && fs::is_regular_file(source, none);

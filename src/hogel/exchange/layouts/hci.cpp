@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <map>
 #include <sstream>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
 #include "hogel/exchange/file_names.h"
@@ -22,14 +22,9 @@ namespace {
 constexpr const char* beginning = "input_cam#";  // in any case
 constexpr std::uintmax_t max_bytes = 1 << 20;    // of parameters.cfg
 
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 const NumberedFiles* pictures_in(const std::vector<NumberedFiles>& groups) {
     for (const NumberedFiles& group : groups)
-        if (lower(group.shape).starts_with(beginning)) return &group;
+        if (core::lower_case(group.shape).starts_with(beginning)) return &group;
     return nullptr;
 }
 
@@ -53,7 +48,7 @@ std::map<std::string, double> read_parameters(const fs::path& file) {
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error == std::errc() && end == text.data() + text.size())
-            parameters[lower(trimmed(line.substr(0, equals)))] = value;
+            parameters[core::lower_case(trimmed(line.substr(0, equals)))] = value;
     }
     return parameters;
 }

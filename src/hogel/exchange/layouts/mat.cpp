@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <variant>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
@@ -35,8 +35,7 @@ std::vector<NumberArray> light_fields_in(const fs::path& source) {
 }
 
 bool probe(const fs::path& source) {
-    std::string ending = source.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = core::lower_case_extension(source);
     std::error_code none;
     if (ending != ".mat" || !fs::is_regular_file(source, none)) return false;
     try {

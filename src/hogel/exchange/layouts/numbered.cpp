@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/error.h"
 #include "hogel/exchange/file_names.h"
 #include "hogel/exchange/view_order.h"
@@ -22,8 +22,7 @@ bool probe(const fs::path& source) {
 
 // Returns whether names follow the conventions of cameras and films: IMG_0001.JPG, Cam_004.png.
 bool names_cameras(const std::string& shape) {
-    std::string name = shape;
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string name = core::lower_case(shape);
     for (const char* word : {"cam", "img", "dsc", "photo", "frame"})
         if (name.find(word) != std::string::npos) return true;
     return false;

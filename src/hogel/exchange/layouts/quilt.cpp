@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/output_file.h"
 #include "hogel/error.h"
 #include "hogel/exchange/quilt_name.h"
@@ -41,8 +42,7 @@ bool take_letter(std::string_view& text, char letter) {
 }  // namespace
 
 std::optional<QuiltTiling> quilt_tiling(const fs::path& path) {
-    std::string stem = path.stem().string();
-    std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string stem = core::lower_case(path.stem().string());
     const std::size_t tag = stem.rfind("_qs");
     if (tag == std::string::npos) return {};
     std::string_view text(stem);

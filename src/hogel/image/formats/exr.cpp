@@ -17,6 +17,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/image/formats/exr_memory.h"
 #include "hogel/image/formats/formats.h"
 #include "hogel/image/formats/row_blocks.h"
@@ -83,11 +84,6 @@ struct Channel {
     bool is_integer;  // stored as 32-bit integers
 };
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 // Returns the sort key of a channel in its layer: colours, vectors and others, then alpha and depth.
 int rank(const std::string& suffix) {
     constexpr std::array<std::string_view, 6> first{"r", "red", "g", "green", "b", "blue"}, last{"a", "alpha"};
@@ -105,8 +101,8 @@ std::vector<Channel> full_channels(const Imf::ChannelList& list) {
         const std::string name = i.name();
         const std::size_t dot = name.rfind('.');
         const bool plain = dot == std::string::npos;
-        channels.push_back({name, plain ? "" : name.substr(0, dot), lower_case(plain ? name : name.substr(dot + 1)),
-                            i.channel().type == Imf::UINT});
+        channels.push_back({name, plain ? "" : name.substr(0, dot),
+                            core::lower_case(plain ? name : name.substr(dot + 1)), i.channel().type == Imf::UINT});
     }
     std::ranges::sort(channels, {}, [](const Channel& c) { return std::tuple(c.layer, rank(c.suffix), c.name); });
     return channels;

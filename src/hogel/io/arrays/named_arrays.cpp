@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/io/arrays/named_arrays.h"
+#include "hogel/core/lower_case.h"
 #include "hogel/core/stop_scope.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -21,14 +21,9 @@ constexpr std::string_view real_words[] = {"real", "re", "r"}, imaginary_words[]
                            amplitude_words[] = {"amplitude", "amp", "abs", "magnitude", "mag", "a"},
                            phase_words[] = {"phase", "phs", "angle", "arg", "p"};
 
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 // Removes a word and its separator from the beginning or end of a name ("holo_re" -> "holo"); nothing if it has none.
 std::optional<std::string> without(const std::string& name, Words words) {
-    const std::string lower = lower_case(name);
+    const std::string lower = core::lower_case(name);
     for (const std::string_view word : words) {
         if (lower == word) return "";
         if (lower.size() <= word.size() + 1) continue;
@@ -221,7 +216,7 @@ Parameter parameter_named(std::string_view name) {
 
 // As parameter_named(), for names that may end in a unit: "wav_um". `unit` receives its length in metres.
 Parameter parameter_of(const std::string& full, double& unit) {
-    std::string name = lower_case(full);
+    std::string name = core::lower_case(full);
     std::erase(name, '_');
     unit = 1;
     if (const Parameter parameter = parameter_named(name); parameter != Parameter::none) return parameter;

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/output_file.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/core/stop_scope.h"
@@ -22,12 +22,6 @@ using namespace io::arrays;
 namespace {
 
 using Complex = std::complex<float>;
-
-std::string ending_of(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending;
-}
 
 // Returns [y][x], or [wavelength][y][x].
 std::vector<std::size_t> shape_of(std::span<const Field> fields) {
@@ -139,7 +133,7 @@ void write_exr_file(const std::filesystem::path& path, std::span<const Field> fi
 }  // namespace
 
 void require_fields_name(const std::filesystem::path& path) {
-    const std::string ending = ending_of(path);
+    const std::string ending = core::lower_case_extension(path);
     for (const char* known : {".npy", ".npz", ".mat", ".exr"})
         if (ending == known) return;
     throw Error(ErrorCode::usage, fmt::format("'{}': fields are written as .npy, .npz, .mat or .exr", path.string()));
@@ -150,7 +144,7 @@ void write_fields(const std::filesystem::path& path, std::span<const Field> fiel
     if (fields.empty() ||
         std::ranges::any_of(fields, [&](const Field& field) { return field.grid().plane != fields[0].grid().plane; }))
         throw Error(ErrorCode::usage, fmt::format("'{}': fields of one sampling were expected", path.string()));
-    const std::string ending = ending_of(path);
+    const std::string ending = core::lower_case_extension(path);
     if (ending == ".npy") return write_npy_file(path, fields);
     if (ending == ".npz") return write_npz_file(path, fields);
     if (ending == ".mat") return write_mat_file(path, fields, metadata);

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/printable.h"
@@ -14,11 +14,6 @@ namespace hogel::scene::mesh_files {
 namespace {
 
 constexpr std::uintmax_t max_file = std::uintmax_t{4} << 30;
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 }  // namespace
 
@@ -33,12 +28,12 @@ std::string one_line(const std::string& message) {
 }
 
 bool has_extension(const std::filesystem::path& path, std::initializer_list<std::string_view> extensions) {
-    return std::find(extensions.begin(), extensions.end(), lower_case(path.extension().string())) != extensions.end();
+    return std::find(extensions.begin(), extensions.end(), core::lower_case_extension(path)) != extensions.end();
 }
 
 bool is_gltf(const std::filesystem::path& path) { return has_extension(path, {".gltf", ".glb", ".vrm"}); }
 
-bool starts_like_ply(std::string_view bytes) { return lower_case(std::string(bytes.substr(0, 3))) == "ply"; }
+bool starts_like_ply(std::string_view bytes) { return core::lower_case(std::string(bytes.substr(0, 3))) == "ply"; }
 
 bool starts_with_mark(std::string_view bytes) { return bytes.starts_with("\xEF\xBB\xBF"); }
 
