@@ -200,7 +200,7 @@ void write_files(const Options& options, const SuitablePatterns& patterns, std::
     const std::size_t frames = all.size() / colours;
     for (std::size_t frame = 0; frame < frames; ++frame)
         write_levels(frames == 1 ? std::filesystem::path(options.output) : numbered(options.output, frame),
-                     joined_levels(all.subspan(frame * colours, colours)), all[0].largest_level, metadata);
+                     joined_levels(all.subspan(frame * colours, colours)), all[0].max_level, metadata);
 }
 
 int slm(Options& options, const Session& session) {

@@ -116,10 +116,10 @@ HOGEL_API std::string describe(const Aperture& aperture, double per_cycle);
 /// The pixel values of a modulator for one wavelength.
 struct Pattern {
     Array<float, 2> values;  ///< [y][x] before rounding to levels: phases in cycles, [0, 1), or amplitudes, [0, 1]
-    /// [y][x]: 0 to largest_level, rounded to the modulator's levels; phases in PatternOptions::phase_code.
+    /// [y][x]: 0 to max_level, rounded to the modulator's levels; phases in PatternOptions::phase_code.
     Array<std::uint16_t, 2> levels;
     /// 255 for modulators of up to 256 levels, which are spread over 0 to 255; otherwise the number of levels less 1.
-    std::uint16_t largest_level = 255;
+    std::uint16_t max_level = 255;
     double efficiency = 0;  ///< fraction of the modulator's light in the wave F, after rounding to levels
     /// For phase modulators, the fraction of the light on the modulator that reproduces the moduli of the field's local
     /// spectra, in squares of `window` pixels. It suits light fields, with arbitrary phases between directions.

@@ -178,7 +178,7 @@ void add_pattern_keywords(py::module_& module) {
         [](const py::dict& keywords, const SuitablePatterns& encoded, const Fields& fields) {
             std::vector<py::object> arrays;
             for (Array<std::uint16_t, 2>& levels : Asked(keywords).values.panel_levels(encoded, fields))
-                arrays.push_back(narrowed(std::move(levels), encoded.patterns[0].largest_level));
+                arrays.push_back(narrowed(std::move(levels), encoded.patterns[0].max_level));
             return arrays;
         },
         arg("keywords"), arg("encoded"), arg("fields"));
@@ -234,8 +234,8 @@ void add_patterns(py::module_& module) {
                                    return array_over(p->values.data(), p->values.shape(), py::cast(p));
                                })
         .def_property_readonly(
-            "levels", [](const Pattern& p) { return narrowed(Array<std::uint16_t, 2>(p.levels), p.largest_level); })
-        .def_readonly("largest_level", &Pattern::largest_level)
+            "levels", [](const Pattern& p) { return narrowed(Array<std::uint16_t, 2>(p.levels), p.max_level); })
+        .def_readonly("max_level", &Pattern::max_level)
         .def_readonly("efficiency", &Pattern::efficiency)
         .def_readonly("light_field_efficiency", &Pattern::light_field_efficiency)
         .def_readonly("reference_angle", &Pattern::reference_angle)

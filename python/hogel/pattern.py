@@ -92,7 +92,7 @@ class Pattern:
         """
         name = os.fspath(path)
         entries = self._entries if metadata is None else metadata
-        largest = self._parts[0].largest_level
+        largest = self._parts[0].max_level
         if self.levels.ndim == 3:
             _core.require_writable(name)
             _core.write_levels(name, self.levels, largest, entries)

@@ -66,7 +66,7 @@ Array<std::uint16_t, 2> panel_levels(const Pattern& pattern, const PatternOption
     const Rounding round{options.modulator.levels, phases, options.phase_code};
     const AddedPhases added(panel, shape, options.modulator.pitch, wavelength);
     // The levels of a correction rise or fall with the phase as those of the code do.
-    const double cycles_of_level = (options.phase_code.inverted ? -1.0 : 1.0) / (pattern.largest_level + 1.0);
+    const double cycles_of_level = (options.phase_code.inverted ? -1.0 : 1.0) / (pattern.max_level + 1.0);
     const PanelLevels& sent = panel.levels;
     Array<std::uint16_t, 2> levels(shape);
     work::parallel_for(shape[0], [&](std::size_t y) {

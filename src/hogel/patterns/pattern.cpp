@@ -252,7 +252,7 @@ void require_fitting(const FieldGrid& grid, const PatternOptions& options) {
 
 void round_to_levels(Pattern& pattern, const PatternOptions& options) {
     const Rounding round{options.modulator.levels, is_phase_only(options.encoding), options.phase_code};
-    pattern.largest_level = round.largest();
+    pattern.max_level = round.largest();
     pattern.levels = Array<std::uint16_t, 2>(pattern.values.shape());
     for_rows(pattern.values.shape(),
              [&](std::size_t i) { pattern.levels.data()[i] = round(pattern.values.data()[i]); });
@@ -307,8 +307,8 @@ Encoding suitable_encoding(const FieldSource& source, const PatternOptions& opti
 
 Array<Complex, 2> transmission(const Pattern& pattern, Encoding encoding, const PhaseCode& phase_code) {
     Array<Complex, 2> result(pattern.levels.shape());
-    const double largest = pattern.largest_level;
-    std::vector<Complex> by_level(std::size_t{pattern.largest_level} + 1);
+    const double largest = pattern.max_level;
+    std::vector<Complex> by_level(std::size_t{pattern.max_level} + 1);
     for (std::size_t level = 0; level < by_level.size(); ++level)
         by_level[level] = is_phase_only(encoding)
                               ? Complex(std::polar(1.0, phase_code.phase(static_cast<double>(level), largest)))

@@ -409,11 +409,11 @@ TEST(Pattern, of_any_number_of_levels_shows_the_phase_within_half_a_level) {
             options.modulator.levels = levels;
             options.phase_code = row.code;
             const Pattern pattern = encode_pattern(field, options);
-            EXPECT_EQ(pattern.largest_level, std::max(levels, 256u) - 1);
-            EXPECT_LE(*std::ranges::max_element(pattern.levels.elements()), pattern.largest_level);
+            EXPECT_EQ(pattern.max_level, std::max(levels, 256u) - 1);
+            EXPECT_LE(*std::ranges::max_element(pattern.levels.elements()), pattern.max_level);
             const Array<Complex, 2> shown = transmission(pattern, options.encoding, row.code);
             // A closed code spreads its levels over one step more; both roundings of few levels add up.
-            const double step = 1.0 / std::min(levels, pattern.largest_level + 0u) + (levels < 256 ? 1.0 / 255 : 0);
+            const double step = 1.0 / std::min(levels, pattern.max_level + 0u) + (levels < 256 ? 1.0 / 255 : 0);
             for (std::size_t i = 0; i < shown.size(); ++i) {
                 const double wanted = pattern.values.data()[i];
                 const double got = std::arg(shown.data()[i]) / (2 * std::numbers::pi);
@@ -426,7 +426,7 @@ TEST(Pattern, of_amplitudes_with_many_levels_rounds_to_the_nearest) {
     PatternOptions options = options_for(Encoding::bipolar);
     options.modulator.levels = 1024;
     const Pattern pattern = encode_pattern(speckle(0.2), options);
-    EXPECT_EQ(pattern.largest_level, 1023);
+    EXPECT_EQ(pattern.max_level, 1023);
     for (std::size_t i = 0; i < pattern.levels.size(); ++i)
         ASSERT_LE(std::abs(pattern.levels.data()[i] - 1023.0 * pattern.values.data()[i]), 0.501);
 }

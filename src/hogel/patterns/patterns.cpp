@@ -11,7 +11,7 @@ namespace hogel {
 namespace {
 
 void put_numbers(work::MessageWriter& message, const Pattern& pattern) {
-    message.put(pattern.largest_level);
+    message.put(pattern.max_level);
     message.put(pattern.efficiency);
     message.put(pattern.light_field_efficiency);
     message.put(pattern.reference_angle);
@@ -22,7 +22,7 @@ void put_numbers(work::MessageWriter& message, const Pattern& pattern) {
 }
 
 void get_numbers(work::MessageReader& message, Pattern& pattern) {
-    pattern.largest_level = message.get<std::uint16_t>();
+    pattern.max_level = message.get<std::uint16_t>();
     pattern.efficiency = message.get<double>();
     pattern.light_field_efficiency = message.get<double>();
     pattern.reference_angle = message.get<double>();

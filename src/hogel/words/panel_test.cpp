@@ -48,7 +48,7 @@ class PanelPatterns : public testing::Test {
         std::vector<Array<std::uint16_t, 2>> levels = asked.values.panel_levels(encoded, fields);
         const Metadata entries = asked.values.metadata(encoded, fields);
         encoded.patterns[0].levels = levels[0];
-        write_levels(folder_ / "p.png", joined_levels(encoded.patterns), encoded.patterns[0].largest_level, entries);
+        write_levels(folder_ / "p.png", joined_levels(encoded.patterns), encoded.patterns[0].max_level, entries);
         if (sent != nullptr) *sent = std::move(levels);
         const auto field = open_external_field(folder_ / "p.png", {});
         Array<Complex, 2> samples({height, width});

@@ -307,7 +307,7 @@ Metadata PatternParameters::metadata(const SuitablePatterns& encoded, const Fiel
     external.values = is_phase_only(encoded.encoding) ? Values::phase : Values::amplitude;
     external.phase_code = parse_phase_code(code());
     external.panel = panel().levels;
-    external.largest = encoded.patterns[0].largest_level;
+    external.largest = encoded.patterns[0].max_level;
     for (auto& field_entry : field_entries(external, wavelengths)) entries.push_back(std::move(field_entry));
     return entries;
 }

@@ -18,7 +18,7 @@ using namespace io::arrays;
 namespace {
 
 constexpr const char *pitch_x_key = "pitch_x_m", *pitch_y_key = "pitch_y_m", *values_key = "values",
-                     *phase_code_key = "phase_code", *largest_key = "largest_level", *flip_key = "flip",
+                     *phase_code_key = "phase_code", *max_level_key = "max_level", *flip_key = "flip",
                      *table_key = "level_table", *correction_key = "correction_file";
 
 std::string wavelength_key(std::size_t field) { return fmt::format("field{}_wavelength_m", field); }
@@ -76,7 +76,7 @@ Metadata field_entries(const ExternalField& description, std::span<const double>
     if (phases && description.phase_code)
         entries.emplace_back(phase_code_key, phase_code_text(*description.phase_code));
     add_panel(description.panel, entries);
-    if (description.largest > 255) entries.emplace_back(largest_key, fmt::format("{}", description.largest));
+    if (description.largest > 255) entries.emplace_back(max_level_key, fmt::format("{}", description.largest));
     return entries;
 }
 
@@ -91,7 +91,7 @@ void io::arrays::take_entries(const Metadata& entries, ExternalFacts& facts) {
     if (values == nullptr || (*values != "phase" && *values != "amplitude")) return;
     facts.values = *values;
     facts.panel = panel_of(entries);
-    if (const double largest = positive_number(entries, largest_key); largest >= 1 && largest <= 65535)
+    if (const double largest = positive_number(entries, max_level_key); largest >= 1 && largest <= 65535)
         facts.largest = static_cast<std::size_t>(largest);
     const std::string* const code = find_text(entries, phase_code_key);
     if (code == nullptr || *values != "phase") return;
