@@ -65,10 +65,7 @@ int hologram_of_scene(Options& options, const SceneHologramMethod& method, const
 int hologram(Options& options, const Session& session) {
     const InputKind kind = input_kind(options.input);
     HologramParameters& wanted = options.hologram;
-    if (!options.device.empty()) {
-        wanted.method_given = true;
-        wanted.fit(find_modulator(options.device), options.render, wanted.method == "olas");
-    }
+    if (!options.device.empty()) wanted.fit(find_modulator(options.device), options.render, wanted.method == "olas");
     if (const SceneHologramMethod* method = scene_hologram_methods().look_up(options.hologram.method)) {
         if (kind == InputKind::scene) return hologram_of_scene(options, *method, session);
         throw Error(ErrorCode::bad_input,

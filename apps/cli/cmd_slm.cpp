@@ -141,11 +141,20 @@ Encoded encode_hologram(Options& options, const Session& session) {
     return encoded;
 }
 
+// Selects the method of the hologram where no option does: for a picture without speckle, unless the encoding shows
+// random phases.
+void select_method(HologramParameters& hologram, bool is_supervised) {
+    if (is_supervised || hologram.method_given) return;
+    hologram.method = "olas";
+    if (hologram.phase.empty()) hologram.phase = "fixed";
+}
+
 // Makes holograms with samples of the modulator's pitch, and encodes them.
 Encoded encode_light_field(Options& options, InputKind kind, const Session& session) {
     const bool is_supervised = options.pattern.encoding == "supervised";
     options.hologram.fit(options.pattern.modulator(), options.render, !is_supervised);
     LightField light_field = with_common_directions(open_or_render(session, options.input, options.render));
+    select_method(options.hologram, is_supervised);
     const HologramRequest request =
         options.hologram.request(light_field.grids(), session.seed, options.pattern.looks());
     check_holograms(light_field.grids(), request, kind == InputKind::scene);

@@ -271,7 +271,7 @@ struct HOGEL_API HologramParameters {
     double pitch = defaults.pitch;                                                 ///< of the samples, metres
     bool pitch_given = false;        ///< false: request(faces, …) may select a smaller pitch
     std::string method = "fourier";  ///< name of a row of hologram_methods()
-    bool method_given = false;       ///< otherwise fit() may set method and phase
+    bool method_given = false;       ///< false: a command may select method and phase
     std::string phase;               ///< empty: the default of the method
     std::string average = "radiance";
     std::string basis;                     ///< empty: that of the light field's coefficients, else cdf97
@@ -280,12 +280,11 @@ struct HOGEL_API HologramParameters {
     std::size_t planes = defaults.planes;  ///< depth planes
     double lines = 0;  ///< distance of lines, metres, for the method lines; 0: the pitch of the samples
 
-    /// Fits the hologram of a scene to the pixels of a modulator, where options do not say otherwise: the pitch of the
-    /// samples, hogels of whole pixels that fill the panel, and a part of the shortest wavelength's band as field of
-    /// view.
-    /// @param smooth  true: a picture without speckle, by the method olas with zero phases; hogels of 2 pixels, 5x5
-    ///                directions, a quarter of the band, which double-phase encoding shows.
-    ///                false: random phases; hogels of 4 pixels, 9x9 directions, 7/8 of the band
+    /// Fits the geometry of a scene's hologram to the pixels of a modulator, where options do not say otherwise: the
+    /// pitch of the samples, hogels of whole pixels that fill the panel, and a field of view that is a part of the
+    /// shortest wavelength's band.
+    /// @param smooth  true: for smooth phases, which double-phase encoding shows: hogels of 2 pixels, 5x5 directions, a
+    ///                quarter of the band. false: for random phases: 4 pixels, 9x9 directions, 7/8 of the band
     void fit(const Modulator& modulator, LightFieldParameters& light_field, bool smooth);
 
     HologramMethod hologram_method() const;

@@ -127,10 +127,6 @@ void HologramParameters::fit(const Modulator& modulator, LightFieldParameters& l
     // pixels on each side.
     const double share = smooth ? 1.0 / 4 : 7.0 / 8;
     const std::size_t side = smooth ? 2 : 4, directions = smooth ? 5 : 9;
-    if (smooth && !method_given) {
-        method = "olas";
-        if (phase.empty()) phase = "fixed";
-    }
     if (!pitch_given) pitch = modulator.pitch;
     pitch_given = true;
     Counts& hogels = light_field.hogels;

@@ -151,7 +151,6 @@ TEST(HologramParameters, fit_keeps_what_is_given) {
     light_field.hogels = {96, 54};
     light_field.directions = {7, 3};
     light_field.hogels_given = light_field.directions_given = true;
-    hologram.method_given = true;
     hologram.fit(find_modulator("pluto"), light_field, true);
     EXPECT_EQ(hologram.method, "fourier");
     EXPECT_EQ(light_field.hogels, (Counts{96, 54}));
