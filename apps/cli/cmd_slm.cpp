@@ -142,9 +142,13 @@ Encoded encode_hologram(Options& options, const Session& session) {
 }
 
 // Selects the method of the hologram where no option does: for a picture without speckle, unless the encoding shows
-// random phases.
-void select_method(HologramParameters& hologram, bool is_supervised) {
+// random phases or the light field has no depth.
+void select_method(HologramParameters& hologram, bool is_supervised, bool has_depth, const Session& session) {
     if (is_supervised || hologram.method_given) return;
+    if (!has_depth) {
+        session.say("the light field has no depth: its picture has speckle; hogel render --depth stores depth");
+        return;
+    }
     hologram.method = "olas";
     if (hologram.phase.empty()) hologram.phase = "fixed";
 }
@@ -154,11 +158,11 @@ Encoded encode_light_field(Options& options, InputKind kind, const Session& sess
     const bool is_supervised = options.pattern.encoding == "supervised";
     options.hologram.fit(options.pattern.modulator(), options.render, !is_supervised);
     LightField light_field = with_common_directions(open_or_render(session, options.input, options.render));
-    select_method(options.hologram, is_supervised);
+    select_method(options.hologram, is_supervised, light_field.has_depth(), session);
     const HologramRequest request =
         options.hologram.request(light_field.grids(), session.seed, options.pattern.looks());
     check_holograms(light_field.grids(), request, kind == InputKind::scene);
-    light_field = prepare_for_reading(session, light_field, 2 * request.channels.size(), true);
+    light_field = prepare_for_reading(session, light_field, 2 * request.channels.size(), light_field.has_depth());
     if (const std::string warning = warning_about(light_field, request); !warning.empty()) session.say(warning);
     options.hologram.resolve(request, light_field.grid());
     Encoded encoded{make_holograms(light_field, request), {}};

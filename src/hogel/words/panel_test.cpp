@@ -2,6 +2,7 @@
 // Patterns for panels, written and read again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -41,9 +42,14 @@ class PanelPatterns : public testing::Test {
 
     // Returns the field, in cycles, of a pattern that is written with these parameters and read from its file alone.
     Array<double, 2> read_again(Metadata texts, std::vector<Array<std::uint16_t, 2>>* sent = nullptr) const {
-        texts.insert(texts.end(), {{"encoding", "phase"}, {"pixels", "24x18"}, {"pixel-pitch", "8um"}});
+        texts.emplace_back("pixel-pitch", "8um");
+        return read_again(field_, std::move(texts), sent);
+    }
+    Array<double, 2> read_again(const std::shared_ptr<const FieldSource>& shown, Metadata texts,
+                                std::vector<Array<std::uint16_t, 2>>* sent = nullptr) const {
+        texts.insert(texts.end(), {{"encoding", "phase"}, {"pixels", "24x18"}});
         const FromTexts<PatternParameters> asked(texts);
-        const Fields fields{field_};
+        const Fields fields{shown};
         SuitablePatterns encoded = asked.values.encode(fields);
         std::vector<Array<std::uint16_t, 2>> levels = asked.values.panel_levels(encoded, fields);
         const Metadata entries = asked.values.metadata(encoded, fields);
@@ -61,16 +67,25 @@ class PanelPatterns : public testing::Test {
 
     static double wanted(std::size_t y, std::size_t x) { return 0.013 * double(x) + 0.021 * double(y * y); }
 
-    static std::shared_ptr<const FieldSource> field_of_phases() {
-        auto field = std::make_shared<Field>(FieldGrid{{width, height, 8_um, 8_um, 0, 0}, 532_nm});
+    template <class Of>
+    static std::shared_ptr<const FieldSource> field_of_phases(double pitch, const Of& cycles) {
+        auto field = std::make_shared<Field>(FieldGrid{{width, height, pitch, pitch, 0, 0}, 532_nm});
         for (std::size_t y = 0; y < height; ++y)
             for (std::size_t x = 0; x < width; ++x)
-                field->samples(y, x) = Complex(std::polar(1.0, 2 * std::numbers::pi * wanted(y, x)));
+                field->samples(y, x) = Complex(std::polar(1.0, 2 * std::numbers::pi * cycles(y, x)));
         return field;
     }
 
+    // Writes a level table that permutes this number of levels.
+    std::string permuted_levels(std::size_t levels) const {
+        std::ofstream table(folder_ / "table.csv");
+        table << "# a permutation\n";
+        for (std::size_t i = 0; i < levels; ++i) table << i << "," << i * 77 % levels << "\n";
+        return (folder_ / "table.csv").string();
+    }
+
     fs::path folder_ = fs::path(testing::TempDir()) / "panel_patterns";
-    std::shared_ptr<const FieldSource> field_ = field_of_phases();
+    std::shared_ptr<const FieldSource> field_ = field_of_phases(8_um, wanted);
 };
 
 template <class Of>
@@ -82,19 +97,34 @@ void expect_cycles(const Array<double, 2>& cycles, double tolerance, const Of& o
 
 TEST_F(PanelPatterns, give_back_the_phases_behind_tables_and_flips_within_half_a_level) {
     for (const std::size_t levels : {256, 1024}) {
-        std::ofstream table(folder_ / "table.csv");
-        table << "# a permutation\n";
-        for (std::size_t i = 0; i < levels; ++i) table << i << "," << i * 77 % levels << "\n";
-        table.close();
+        const std::string table = permuted_levels(levels);
         for (const char* flip : {"none", "horizontal", "vertical", "both"})
             for (const char* code : {"hogel", "slmsuite", "odak"}) {
-                const Metadata texts{{"levels", std::to_string(levels)},
-                                     {"flip", flip},
-                                     {"phase-code", code},
-                                     {"lut", (folder_ / "table.csv").string()}};
+                const Metadata texts{
+                    {"levels", std::to_string(levels)}, {"flip", flip}, {"phase-code", code}, {"lut", table}};
                 expect_cycles(read_again(texts), 0.5 / double(levels - 1) + 1e-6, wanted);
             }
     }
+}
+
+TEST_F(PanelPatterns, of_every_modulator_give_back_a_plane_wave_within_half_a_level) {
+    const auto plane_wave = [](std::size_t y, std::size_t x) { return 0.0713 * double(x) - 0.0279 * double(y) + 0.1; };
+    std::size_t count = 0;
+    for (const Modulator& modulator : modulators().rows()) {
+        if (modulator.modulation == "amplitude") continue;
+        SCOPED_TRACE(modulator.name);
+        Metadata texts{{"pixel-pitch", lengths_text({modulator.pitch})},
+                       {"levels", std::to_string(modulator.levels)},
+                       {"phase-code", modulator.phase_code},
+                       {"flip", modulator.flip},
+                       {"lut", permuted_levels(std::max(modulator.levels, 256u))}};
+        std::erase_if(texts, [](const auto& entry) { return entry.second.empty(); });
+        // A closed code has a step less than levels.
+        const double steps = modulator.levels - (modulator.phase_code.empty() ? 0.0 : 1.0);
+        expect_cycles(read_again(field_of_phases(modulator.pitch, plane_wave), texts), 0.5 / steps + 1e-5, plane_wave);
+        ++count;
+    }
+    EXPECT_GT(count, 0u);
 }
 
 TEST_F(PanelPatterns, send_columns_and_rows_in_reverse_order) {
