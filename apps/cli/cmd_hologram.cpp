@@ -93,6 +93,8 @@ int hologram(Options& options, const Session& session) {
             // The date of the file may differ between machines.
             part_input = fmt::format("{}, {} bytes", options.input, std::filesystem::file_size(options.input));
             LightField opened = open_for_holograms(options.input, request, options.hologram.basis.empty());
+            if (!options.device.empty())
+                opened = fitted(session, opened, wanted, find_modulator(options.device), wanted.method == "olas");
             check(opened.grids());
             return opened;
         }

@@ -146,7 +146,8 @@ Encoded encode_hologram(Options& options, const Session& session) {
 void select_method(HologramParameters& hologram, bool is_supervised, bool has_depth, const Session& session) {
     if (is_supervised || hologram.method_given) return;
     if (!has_depth) {
-        session.say("the light field has no depth: its picture has speckle; hogel render --depth stores depth");
+        session.say(
+            "the light field has no depth: its picture has speckle; hogel render or import with --depth stores depth");
         return;
     }
     hologram.method = "olas";
@@ -157,7 +158,10 @@ void select_method(HologramParameters& hologram, bool is_supervised, bool has_de
 Encoded encode_light_field(Options& options, InputKind kind, const Session& session) {
     const bool is_supervised = options.pattern.encoding == "supervised";
     options.hologram.fit(options.pattern.modulator(), options.render, !is_supervised);
-    LightField light_field = with_common_directions(open_or_render(session, options.input, options.render));
+    LightField light_field = open_or_render(session, options.input, options.render);
+    if (kind == InputKind::light_field)
+        light_field = fitted(session, light_field, options.hologram, options.pattern.modulator(), !is_supervised);
+    light_field = with_common_directions(light_field);
     select_method(options.hologram, is_supervised, light_field.has_depth(), session);
     const HologramRequest request =
         options.hologram.request(light_field.grids(), session.seed, options.pattern.looks());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "hogel/error.h"
@@ -55,6 +57,21 @@ LightField open_or_render(const Session& session, const std::string& name, Light
     LightField rendered = render_light_field(session, scene, options);
     require_memory(session, rendered, options, scene);
     return rendered;
+}
+
+LightField fitted(const Session& session, const LightField& light_field, const HologramParameters& hologram,
+                  const Modulator& modulator, bool smooth) {
+    LightField fitted = hologram.fitted(light_field, modulator, smooth);
+    const LightFieldGrid &before = light_field.grid(), &after = fitted.grid();
+    if (after == before) return fitted;
+    const auto degrees = [](double half) { return 2 * std::atan(half) * 180 / std::numbers::pi; };
+    session.say(
+        fmt::format("the light field is {} by {} with {:.3g} degrees for {}, instead of {} by {} with {:.3g} "
+                    "degrees; its depth keeps the disparity",
+                    format_length(after.width()), format_length(after.height()), degrees(after.half_u()),
+                    modulator.name.empty() ? "these pixels" : modulator.name, format_length(before.width()),
+                    format_length(before.height()), degrees(before.half_u())));
+    return fitted;
 }
 
 Fields open_and_reconstruct(const Session& session, const std::string& name, FieldParameters& options) {

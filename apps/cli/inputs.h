@@ -35,6 +35,10 @@ void require_memory(const Session& session, const LightField& rendered, const Li
 /// Opens the light field of a file, or renders that of a scene on demand when it is read.
 LightField open_or_render(const Session& session, const std::string& name, LightFieldParameters& options);
 
+/// Returns HologramParameters::fitted(), and prints the new scale.
+LightField fitted(const Session& session, const LightField& light_field, const HologramParameters& hologram,
+                  const Modulator& modulator, bool smooth);
+
 /// Calls FieldParameters::open_and_reconstruct() for a hologram or another program's field, and prints its notes.
 Fields open_and_reconstruct(const Session& session, const std::string& name, FieldParameters& options);
 

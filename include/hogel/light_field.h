@@ -357,6 +357,13 @@ HOGEL_API LightFieldGrid common_directions(const LightFieldGrid& grid);
 HOGEL_API LightField with_common_directions(const LightField& light_field);
 HOGEL_API LightField with_common_directions(const LightField& light_field, const LightFieldGrid& grid);
 
+/// Returns a light field of one face with the same samples at another scale: hogels `pitch` apart (metres), and all
+/// directions U and V times `factor`. A fixed focal plane becomes directions in common, as if it were at infinity.
+/// Depth ζ becomes pitch/(d factor) ζ/(1 − ζ/D), for the earlier pitch d and the depth D of a fixed focal plane, so
+/// that neighbouring directions see a point as many hogels apart as before; +infinity for ζ/D ≥ 1. Throws Error(usage)
+/// for a hemicube, and for a pitch or factor that is not positive.
+HOGEL_API LightField with_scale(const LightField& light_field, double pitch, double factor);
+
 /// Returns the light field with a cache of tiles, for readers with tiles that do not suit the sources: for example a
 /// renderer that is fast in long rows, read in narrow tiles. Sources are read in their preferred tiles. The last used
 /// tiles are kept, at most `bytes` in total; a read that needs more bypasses the cache. Depth is cached if

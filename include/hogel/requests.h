@@ -287,6 +287,11 @@ struct HOGEL_API HologramParameters {
     ///                quarter of the band. false: for random phases: 4 pixels, 9x9 directions, 7/8 of the band
     void fit(const Modulator& modulator, LightFieldParameters& light_field, bool smooth);
 
+    /// Returns a light field at the scale that suits a modulator: hogels of whole pixels, as large as the panel allows,
+    /// and directions within its band (7/8 of it), otherwise within the part of it that fit() gives a scene. Returns a
+    /// light field that suits already unchanged, and one of more hogels than pixels.
+    LightField fitted(const LightField& light_field, const Modulator& modulator, bool smooth) const;
+
     HologramMethod hologram_method() const;
     HologramRequest request(std::uint64_t seed, std::size_t looks) const;
     /// Returns the request for a light field with these faces. Unless the pitch is given, it is diffracting_pitch().

@@ -305,6 +305,7 @@ void add_light_fields(py::module_& module) {
         arg("light_field"), arg("face"), arg("function"), arg("depth"), arg("report"));
     module.def(
         "with_common_directions", [](const LightField& l) { return with_common_directions(l); }, arg("light_field"));
+    module.def("with_scale", &with_scale, arg("light_field"), arg("pitch"), arg("factor"));
     module.def("cached_tiles", &cached_tiles, arg("light_field"), arg("bytes"), arg("with_depth") = false);
     module.def(
         "prepare_for_reading",

@@ -169,6 +169,17 @@ class LightField(Rays):
         """
         return LightField(_core.with_common_directions(self._light_field), self.where, self._made)
 
+    def with_scale(self, pitch: units.Length, factor: float = 1) -> "LightField":
+        """Returns the light field at another scale: hogels `pitch` apart, and all directions U and V times `factor`. Depth
+        keeps the disparity between neighbouring directions. A fixed focal plane becomes common directions.
+
+        >>> import hogel, numpy as np
+        >>> lf = hogel.LightField.from_array(np.ones((1, 6, 8, 4, 5), np.float32), size="8mm", fov="16deg")
+        >>> lf.with_scale("0.5mm", 0.2).grid.pitch
+        0.0005
+        """
+        return LightField(_core.with_scale(self._light_field, units.length(pitch, "pitch"), factor), self.where, self._made)
+
     def every_nth_hogel(self, n: int) -> "LightField":
         """Returns a light field with every n-th hogel across and down, as a preview of a large one. n must be odd.
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "hogel/error.h"
+#include "hogel/light_field.h"
 #include "hogel/requests.h"
 #include "hogel/scene_hologram.h"
 #include "hogel/table.h"
@@ -120,12 +121,38 @@ struct Adjust {
     void refuse(const char* expected) const { throw Error(ErrorCode::usage, "phase", expected); }
 };
 
+// Returns the part of a modulator's band that holograms for it use. Double-phase encoding shows a quarter. Other light
+// needs a margin of half a lobe of eight pixels on each side.
+double share_of_band(bool smooth) { return smooth ? 1.0 / 4 : 7.0 / 8; }
+
+// Returns the largest sine of an angle from the axis that this part of a modulator's band diffracts to.
+double largest_sine(const Modulator& modulator, std::span<const double> wavelengths, bool smooth) {
+    return std::min(1.0, share_of_band(smooth) * *std::ranges::min_element(wavelengths) / (2 * modulator.pitch));
+}
+
 }  // namespace
 
+LightField HologramParameters::fitted(const LightField& light_field, const Modulator& modulator, bool smooth) const {
+    const LightFieldGrid& grid = light_field.grid();
+    const std::size_t most = std::min(modulator.width / grid.hogels_s, modulator.height / grid.hogels_t);
+    if (most == 0 || light_field.has_sides()) return light_field;
+    const double pixels = grid.pitch / modulator.pitch;
+    const bool is_whole = std::abs(pixels - std::round(pixels)) < 1e-3 && std::round(pixels) >= 1 &&
+                          std::round(pixels) <= static_cast<double>(most);
+    const double pitch = is_whole ? grid.pitch : static_cast<double>(most) * modulator.pitch;
+    const LightFieldGrid common = common_directions(grid);
+    const double reach =
+        std::max(std::abs(common.center_u()) + common.half_u(), std::abs(common.center_v()) + common.half_v());
+    const double sine = grid.has_frequencies() ? reach : reach / std::hypot(1.0, reach);
+    if (sine <= largest_sine(modulator, wavelengths, false) * (1 + 1e-6))
+        return is_whole ? light_field : with_scale(light_field, pitch, 1);
+    const double wanted = largest_sine(modulator, wavelengths, smooth);
+    const double own = std::max(std::abs(grid.center_u()) + grid.half_u(), std::abs(grid.center_v()) + grid.half_v());
+    return with_scale(light_field, pitch,
+                      (grid.has_frequencies() ? wanted : wanted / std::sqrt(1 - wanted * wanted)) / own);
+}
+
 void HologramParameters::fit(const Modulator& modulator, LightFieldParameters& light_field, bool smooth) {
-    // Double-phase encoding shows a quarter of the modulator's band. Other light needs a margin of half a lobe of eight
-    // pixels on each side.
-    const double share = smooth ? 1.0 / 4 : 7.0 / 8;
     const std::size_t side = smooth ? 2 : 4, directions = smooth ? 5 : 9;
     if (!pitch_given) pitch = modulator.pitch;
     pitch_given = true;
@@ -136,8 +163,7 @@ void HologramParameters::fit(const Modulator& modulator, LightFieldParameters& l
     if (!light_field.size_given) light_field.size = static_cast<double>(hogels.columns * pixels) * modulator.pitch;
     if (!light_field.directions_given) light_field.directions = {directions, directions};
     if (light_field.field_of_view_given) return;
-    const double shortest = *std::ranges::min_element(wavelengths);
-    const double angle = 2 * std::asin(std::min(1.0, share * shortest / (2 * modulator.pitch)));
+    const double angle = 2 * std::asin(largest_sine(modulator, wavelengths, smooth));
     light_field.field_of_view = {angle, angle};
 }
 

@@ -158,5 +158,42 @@ TEST(HologramParameters, fit_keeps_what_is_given) {
     EXPECT_NEAR(light_field.size, 1920 * 8e-6, 1e-12);
 }
 
+// Checks that a light field suits a modulator: hogels of whole pixels within the panel, and directions in its band.
+void expect_fitting(const LightFieldGrid& grid, const Modulator& modulator, double wavelength) {
+    SCOPED_TRACE(modulator.name);
+    const LightFieldGrid common = common_directions(grid);
+    const double pixels = grid.pitch / modulator.pitch;
+    EXPECT_NEAR(pixels, std::round(pixels), 1e-6);
+    EXPECT_LE(grid.width(), double(modulator.width) * modulator.pitch * (1 + 1e-6));
+    EXPECT_LE(grid.height(), double(modulator.height) * modulator.pitch * (1 + 1e-6));
+    const double reach = std::abs(common.center_u()) + common.half_u();
+    EXPECT_LT(std::sin(std::atan(reach)), wavelength / (2 * modulator.pitch));
+}
+
+TEST(HologramParameters, fitted_light_fields_suit_every_modulator) {
+    HologramParameters hologram;
+    hologram.wavelengths = {520e-9};
+    const LightFieldGrid captured{512, 512, 30e-6, 9, 9, FocalPlane{{0.029, 0.029, 0, 0}, -0.3}, 1},
+        wide{40, 20, 1e-3, 5, 5, field_of_view(1.2, 0.5, 0.1), 1}, tiny{6, 4, 1e-6, 3, 3, field_of_view(1e-3), 1};
+    for (const Modulator& modulator : modulators().rows())
+        for (const bool smooth : {false, true})
+            for (const LightFieldGrid& grid : {captured, wide, tiny}) {
+                const LightField light_field =
+                    light_field_from(grid, [](double, double, double, double) { return 1.0; });
+                expect_fitting(hologram.fitted(light_field, modulator, smooth).grid(), modulator, 520e-9);
+            }
+}
+
+TEST(HologramParameters, fitted_keeps_light_fields_that_suit_and_that_have_too_many_hogels) {
+    HologramParameters hologram;
+    hologram.wavelengths = {520e-9};
+    const Modulator pluto = find_modulator("pluto");
+    for (const LightFieldGrid& grid : {LightFieldGrid{480, 270, 32e-6, 9, 9, field_of_view(0.0567), 1},
+                                       LightFieldGrid{2000, 4, 30e-6, 3, 3, field_of_view(0.5), 1}}) {
+        const LightField light_field = light_field_from(grid, [](double, double, double, double) { return 1.0; });
+        EXPECT_EQ(hologram.fitted(light_field, pluto, true).grid(), grid);
+    }
+}
+
 }  // namespace
 }  // namespace hogel
