@@ -207,6 +207,7 @@ void write_outputs(const std::filesystem::path& folder, const Made& made, const 
 
 int make(Options& options, const Session& session) {
     require_files(options);
+    options.make.fit();
     const Scene scene = load_scene(session, options.scene, options.make.render);
     MakeRequest request = resolved_request(options, scene, session);
     check_plan(request, options, session);

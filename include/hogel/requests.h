@@ -483,6 +483,7 @@ struct HOGEL_API PhotoParameters {
 struct HOGEL_API MakeParameters {
     LightFieldParameters render;
     HologramParameters hologram;
+    std::string device;  ///< name of the modulator whose pixels the hologram fits; empty: none
     double eye_distance = defaults.eye_distance;
     double pupil = defaults.pupil;
     WaveCameraParameters waves;
@@ -494,6 +495,8 @@ struct HOGEL_API MakeParameters {
     Output made = Output::report;
     bool is_one_of(const std::vector<Output>& outputs) const;
 
+    /// Fits the hologram's geometry to `device`, if it is named. Throws as find_modulator() does.
+    void fit();
     MakeRequest request(std::uint64_t seed) const;
     /// @param with_plane_waves  whether to include the value full of --camera
     void declare(Parameters& parameters, bool with_plane_waves = false);

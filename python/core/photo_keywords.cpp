@@ -47,6 +47,7 @@ struct MakeKeywords {
         values.render.declare_hemicube(table);
         values.render.declare_directions(table);
         read_keywords(table, keywords);
+        values.fit();
     }
 };
 
@@ -130,6 +131,12 @@ void add_photo_keywords(py::module_& module) {
             return asked.values.request(asked.seed);
         },
         arg("keywords"));
+    module.def(
+        "make_note_about_pitch",
+        [](const py::dict& keywords, const MakeRequest& request) {
+            return MakeKeywords(keywords).values.hologram.note_about_pitch(request.hologram);
+        },
+        arg("keywords"), arg("request"));
 }
 
 }  // namespace hogel::python

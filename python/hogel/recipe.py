@@ -110,6 +110,6 @@ def make(scene: Union[str, "os.PathLike[str]", Scene], *, progress: Progress = N
     placed = (scene if isinstance(scene, Scene) else Scene.load(scene)).placed(wanted.light_field, progress)
     with reporting(progress, "make") as report:
         made = _core.make(placed, wanted, report)
-    if note := _core.note_about_pitch(options, made.request.hologram):
+    if note := _core.make_note_about_pitch(options, made.request):
         warnings.warn(note, stacklevel=3)
     return Made(made)

@@ -11,6 +11,10 @@ bool MakeParameters::is_one_of(const std::vector<Output>& outputs) const {
     return made == Output::report || std::ranges::count(outputs, made) > 0;
 }
 
+void MakeParameters::fit() {
+    if (!device.empty()) hologram.fit(find_modulator(device), render, false);
+}
+
 MakeRequest MakeParameters::request(std::uint64_t seed) const {
     MakeRequest request;
     request.light_field = render.request();
@@ -31,6 +35,13 @@ void MakeParameters::declare(Parameters& parameters, bool with_plane_waves) {
     parameters.group("Hologram");
     hologram.declare_pitch(parameters)
         .acts_if(acts_on({Output::hologram, Output::photographs, Output::speckle_free_photographs}));
+    parameters
+        .text("--device", device, "NAME",
+              "Modulator that will show the hologram: sets pitch, hogels, directions, size and field of view, where no "
+              "option does")
+        .knows(modulator_names())
+        .no_default()
+        .never_acts();
     if (Parameter* const seed = parameters.look_up("seed"))
         seed->acts_if(acts_on({Output::hologram, Output::photographs}));
     parameters.group("Camera",
