@@ -82,7 +82,7 @@ int hologram(Options& options, const Session& session) {
     const auto check = [&](std::span<const LightFieldGrid> faces) {
         // The file that is opened may set the other members.
         request.pitch = options.hologram.request(faces, session.seed, 1).pitch;
-        session.say(options.hologram.note_about_pitch(request));
+        session.say(options.hologram.note_about_pitch(request, faces.front()));
         check_holograms(faces, request, kind == InputKind::scene);
         check_plan(session, plan_holograms(faces, request, file), "synthesising the hologram", options.output);
     };

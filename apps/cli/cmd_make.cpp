@@ -164,7 +164,7 @@ void require_files(const Options& options) {
 // Returns the request for the scene. Prints changes of the pitch.
 MakeRequest resolved_request(const Options& options, const Scene& scene, const Session& session) {
     MakeRequest request = resolve(options.make.request(session.seed), bounds(scene));
-    session.say(options.make.hologram.note_about_pitch(request.hologram));
+    session.say(options.make.hologram.note_about_pitch(request.hologram, request.light_field.grid));
     with_renamed_parameters({{"wavelength", "hogels, size"}}, [&] {
         require_holograms(request.light_field.grids(), request.hologram, cameras_of(request));
     });

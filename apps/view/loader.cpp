@@ -238,7 +238,8 @@ std::unique_ptr<Waves> Loader::waves_of(const LightField& light_field, bool rend
         const ViewerParameters& options = settings.options();
         LightField common = with_common_directions(light_field);
         const HologramRequest request = options.hologram.request(common.grids(), settings.seed(), options.looks);
-        if (const std::string note = options.hologram.note_about_pitch(request); !note.empty()) say(note);
+        if (const std::string note = options.hologram.note_about_pitch(request, common.grid()); !note.empty())
+            say(note);
         check_holograms(common.grids(), request, rendered);
         if (rendered)
             common = hogel::prepare_for_reading(common, request.channels.size(), needs_depth(request.method), making);

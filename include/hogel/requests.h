@@ -298,6 +298,9 @@ struct HOGEL_API HologramParameters {
     HologramRequest request(std::span<const LightFieldGrid> faces, std::uint64_t seed, std::size_t looks) const;
     /// Returns a line about a selected pitch; empty if the request has the given or the default pitch.
     std::string note_about_pitch(const HologramRequest& request) const;
+    /// Returns that line, or one about a given pitch that changes by more than 0.1 % so that the hogels of this front
+    /// face hold whole samples. It names a size that keeps the pitch.
+    std::string note_about_pitch(const HologramRequest& request, const LightFieldGrid& front) const;
     /// Returns the request of a method without a light field. The hologram has the size of `place`. Throws
     /// Error(usage).
     SceneHologramRequest scene_request(std::uint64_t seed, const LightFieldParameters& place) const;

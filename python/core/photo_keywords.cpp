@@ -134,7 +134,7 @@ void add_photo_keywords(py::module_& module) {
     module.def(
         "make_note_about_pitch",
         [](const py::dict& keywords, const MakeRequest& request) {
-            return MakeKeywords(keywords).values.hologram.note_about_pitch(request.hologram);
+            return MakeKeywords(keywords).values.hologram.note_about_pitch(request.hologram, request.light_field.grid);
         },
         arg("keywords"), arg("request"));
 }

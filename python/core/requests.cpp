@@ -178,10 +178,10 @@ void add_keywords(py::module_& module) {
         arg("keywords"), arg("light_field") = nullptr);
     module.def(
         "note_about_pitch",
-        [](const py::dict& keywords, const HologramRequest& request) {
-            return Keywords<HologramParameters>(keywords).values.note_about_pitch(request);
+        [](const py::dict& keywords, const HologramRequest& request, const LightFieldGrid& front) {
+            return Keywords<HologramParameters>(keywords).values.note_about_pitch(request, front);
         },
-        arg("keywords"), arg("request"));
+        arg("keywords"), arg("request"), arg("front"));
     module.def(
         "hologram_record",
         [](const py::dict& keywords, const HologramRequest& request, const LightFieldGrid& front) {

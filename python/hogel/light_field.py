@@ -258,7 +258,7 @@ class LightField(Rays):
         wanted = hologram_request(**options)
         common = self._for_holograms(wanted, options.get("basis") is None)
         wanted.pitch = _core.hologram_request(options, common).pitch
-        note = _core.note_about_pitch(options, wanted)
+        note = _core.note_about_pitch(options, wanted, common.grid)
         if note:
             warnings.warn(note, stacklevel=3)
         _core.require_holograms(common, wanted)

@@ -67,6 +67,11 @@ void declare_hologram(Parameters& parameters, HologramParameters& options, const
     if (Parameter* const seed = parameters.look_up("seed")) seed->acts_if([&options] { return options.is_seeded; });
 }
 
+// Returns the number of samples across a hogel. It is whole, so the pitch may differ slightly from the requested one.
+double samples_across(const LightFieldGrid& front, double pitch) {
+    return std::max(1.0, std::round(front.pitch / pitch));
+}
+
 // Returns the help of --method, one line per method of the table.
 std::string help_of_methods() {
     std::string help = "Method that computes the hologram from the light field:";
@@ -203,11 +208,19 @@ std::string HologramParameters::note_about_pitch(const HologramRequest& request)
                        format_length(request.pitch), format_length(pitch));
 }
 
+std::string HologramParameters::note_about_pitch(const HologramRequest& request, const LightFieldGrid& front) const {
+    const double samples = samples_across(front, pitch), effective = front.pitch / samples, exact = samples * pitch;
+    if (!pitch_given || std::abs(effective - pitch) <= 1e-3 * pitch) return note_about_pitch(request);
+    return fmt::format(
+        "pitch: {} became {} because a hogel of {} holds {} samples; hogels of {} (--size {:.6g}mm) keep the pitch",
+        format_length(pitch), format_length(effective), format_length(front.pitch), samples, format_length(exact),
+        1e3 * exact * static_cast<double>(front.hogels_s));
+}
+
 void HologramParameters::resolve(const HologramRequest& request, const LightFieldGrid& front) {
     is_made = true;
     made_by = request.method;
-    // A hogel has a whole number of samples, so the pitch may differ slightly from the given one.
-    const double columns = std::max(1.0, std::round(front.pitch / request.pitch)), effective = front.pitch / columns;
+    const double effective = front.pitch / samples_across(front, request.pitch);
     if (std::abs(effective - pitch) > 1e-9 * pitch) pitch = effective;
     if (const std::optional<double> apart = line_pitch(request.method)) lines = *apart > 0 ? *apart : effective;
     if (const auto* fringes = std::get_if<Basis>(&request.method)) basis = fringes->transform;

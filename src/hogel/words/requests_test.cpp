@@ -145,6 +145,22 @@ TEST(HologramParameters, fit_every_modulator) {
         }
 }
 
+TEST(HologramParameters, name_a_size_that_keeps_a_given_pitch) {
+    LightFieldParameters light_field;
+    light_field.hogels = {60, 34};
+    light_field.size = 3e-3;
+    HologramParameters hologram;
+    hologram.pitch = 8e-6;
+    const auto note = [&] { return hologram.note_about_pitch(hologram.request(1, 1), light_field.grid()); };
+    EXPECT_EQ(note(), "");
+    hologram.pitch_given = true;
+    EXPECT_EQ(note(),
+              "pitch: 8 um became 8.33333 um because a hogel of 50 um holds 6 samples; hogels of 48 um (--size 2.88mm) "
+              "keep the pitch");
+    light_field.size = 2.88e-3;
+    EXPECT_EQ(note(), "");
+}
+
 TEST(HologramParameters, fit_keeps_what_is_given) {
     HologramParameters hologram;
     LightFieldParameters light_field;
