@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "commands.h"
+#include "hogel/bench.h"
 #include "hogel/communicator.h"
 #include "hogel/parameters.h"
 #include "hogel/pipeline.h"
+#include "hogel/units.h"
 #include "inputs.h"
 #include "movie.h"
 #include "outputs.h"
@@ -88,6 +90,69 @@ std::vector<Image> photographs_of_hologram(Options& options, const Session& sess
     return pictures;
 }
 
+// Prints the measures of a photograph on the bench, and returns them for --json.
+Result report_bench(const FieldGrid& grid, const Bench& bench, const BenchPhotograph& photograph,
+                    const Session& session) {
+    const double radius = 0.61 * grid.wavelength * bench.focal_length / photograph.resolution;
+    std::string waves = photograph.points == 1 ? "" : fmt::format(", {} points", photograph.points);
+    if (photograph.wavelengths > 1) waves += fmt::format(", {} wavelengths", photograph.wavelengths);
+    session.say(fmt::format(
+        "{}: bench: aperture radius {:.3g} mm, resolution {:.3g} um, efficiency {:.2f} %, speckle "
+        "contrast {:.3f}{}{}",
+        format_length(grid.wavelength), radius * 1e3, photograph.resolution * 1e6, 100 * photograph.efficiency,
+        photograph.contrast, waves, photograph.is_converged ? "" : ", fewer than this led needs"));
+    return {{"wavelength_m", grid.wavelength},
+            {"focus_m", bench.focus},
+            {"aperture_m", radius},
+            {"resolution_m", photograph.resolution},
+            {"efficiency", photograph.efficiency},
+            {"speckle_contrast", photograph.contrast},
+            {"source_points", photograph.points},
+            {"source_wavelengths", photograph.wavelengths},
+            {"converged", photograph.is_converged}};
+}
+
+// Photographs patterns of one or three wavelengths on the bench; adds its measures to the results.
+std::vector<Image> photographs_on_bench(Options& options, const Session& session, ResultList& results) {
+    const BenchParameters& bench = options.photo.bench;
+    options.field.pitch = options.hologram.pitch;
+    options.field.wavelengths = options.hologram.wavelengths;
+    const OpenedFields opened = [&] {
+        Stage opening(session, "opening the pattern");
+        return options.field.open(options.input, *session.command);
+    }();
+    for (const std::string& note : opened.notes) session.say(note);
+    options.hologram.resolve(options.field);
+    const Fields& patterns = opened.fields;
+    if (patterns.size() != 1 && patterns.size() != 3)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
+                                                      options.input, patterns.size()));
+    if (patterns.size() > 1 && parse_light_source(bench.source).kind == LightSource::Kind::led)
+        throw Error(ErrorCode::usage, "source",
+                    fmt::format("a led has one mean wavelength, but {} has three", options.input));
+    for (const std::string& note : bench.notes(options.input, patterns)) session.say(note);
+    const CameraParameters& view = options.photo.view;
+    Stage stage(session, "photograph on the bench");
+    std::vector<Image> pictures;
+    for (std::size_t i = 0; i < view.frames; ++i) {
+        const double part = view.frames > 1 ? static_cast<double>(i) / static_cast<double>(view.frames - 1) : 0;
+        const double focus = view.focus + part * (view.last_focus.value_or(view.focus) - view.focus);
+        Image& picture = pictures.emplace_back();
+        for (std::size_t c = 0; c < patterns.size(); ++c) {
+            const FieldSource& pattern = *patterns[c];
+            const Bench used = bench.bench(options.input, pattern, options.field, focus);
+            const BenchPhotograph channel = photograph_on_bench(
+                pattern, used, stage.progress(i * patterns.size() + c, view.frames * patterns.size()));
+            if (c == 0) picture.reset(channel.picture.width(), channel.picture.height(), patterns.size());
+            const auto power = static_cast<float>(bench.power(options.input, pattern.grid().wavelength));
+            for (std::size_t k = 0; k < channel.picture.pixels.size(); ++k)
+                picture.pixels.data()[k * patterns.size() + c] = power * channel.picture.pixels.data()[k];
+            results.push_back(report_bench(pattern.grid(), used, channel, session));
+        }
+    }
+    return pictures;
+}
+
 std::vector<Image> photographs_by_rays(const Options& options, const LightField& light_field,
                                        std::span<const Camera> cameras, const Session& session) {
     const RayCamera rays{options.photo.pupil_samples};
@@ -151,8 +216,9 @@ double exposure_of(const Options& options, double requested_exposure, std::span<
 }
 
 // Writes the pictures and reports them.
+// @param bench  measures of the bench, if the pictures are of it
 void write_photographs(const Options& options, std::span<const Image> pictures, double exposure,
-                       const Session& session) {
+                       const ResultList& bench, const Session& session) {
     if (!is_root_rank()) return;
     Metadata metadata = run_metadata(session);
     metadata.emplace_back("exposure", fmt::format("{:.9g}", exposure));
@@ -170,15 +236,13 @@ void write_photographs(const Options& options, std::span<const Image> pictures, 
     session.say(fmt::format("{}: {}{}x{} pixels, exposure {:.6g}", options.output,
                             movie ? fmt::format("{} pictures of ", pictures.size()) : "", first.width(), first.height(),
                             exposure));
-    session.result({{"file", options.output},
-                    {"bytes", bytes},
-                    {"pictures", pictures.size()},
-                    {"width", first.width()},
-                    {"height", first.height()},
-                    {"channels", first.channels()},
-                    {"exposure", exposure},
-                    {"geometric", options.photo.geometric},
-                    {"seconds", session.seconds()}});
+    Result result{{"file", options.output},      {"bytes", bytes},
+                  {"pictures", pictures.size()}, {"width", first.width()},
+                  {"height", first.height()},    {"channels", first.channels()},
+                  {"exposure", exposure},        {"geometric", options.photo.geometric},
+                  {"seconds", session.seconds()}};
+    if (!bench.empty()) result.emplace_back("bench", bench);
+    session.result(result);
 }
 
 int photo(Options& options, const Session& session) {
@@ -186,7 +250,9 @@ int photo(Options& options, const Session& session) {
     const Command& given = *session.command;
     if (given.given("--pitch") && !given.given("--wave") && !given.given("--like"))
         options.field.require_described(options.input);
+    options.photo.bench.describe(options.input, options.field);
     const InputKind kind = options.field.is_external(options.input) ? InputKind::hologram : input_kind(options.input);
+    options.photo.bench.resolve(options.input, options.field, given);
     if (options.photo.view.frames > 1)
         with_parameter("frames", [&] { require_movie(options.output); });
     else
@@ -195,11 +261,13 @@ int photo(Options& options, const Session& session) {
     resolve(options, kind);
     ResumableOutput resumable(session, options.resume, options.output,
                               options.resume ? describe_input(options.input) : "");
-    std::vector<Image> pictures = kind == InputKind::hologram ? photographs_of_hologram(options, session)
-                                                              : photographs_of_light_field(options, session, kind);
+    ResultList bench;
+    std::vector<Image> pictures = options.photo.bench.is_used   ? photographs_on_bench(options, session, bench)
+                                  : kind == InputKind::hologram ? photographs_of_hologram(options, session)
+                                                                : photographs_of_light_field(options, session, kind);
     if (options.photo.display == "log")
         for (Image& picture : pictures) picture = logarithmic(picture);
-    write_photographs(options, pictures, exposure_of(options, requested_exposure, pictures), session);
+    write_photographs(options, pictures, exposure_of(options, requested_exposure, pictures), bench, session);
     resumable.complete();
     return 0;
 }
@@ -213,6 +281,7 @@ void add_photo(Command& command, Session& session) {
         "  hogel photo pumpkin.h5 -o truth.exr --focus -4mm\n"
         "  hogel photo pumpkin -o wave.png --hogels 128x128 --size 8mm --looks 8\n"
         "  hogel photo hologram.h5 -o stack.mp4 --focus -6mm --to-focus 6mm --frames 24\n"
+        "  hogel photo pattern.png -o bench.png --focal 200mm --focus -200mm --source led:520nm,30nm,0.5mm\n"
         "  hogel photo phase.png -o p.png --phase-code slmsuite --pitch 8um --wavelength 532nm");
     command.basics({"eye", "gaze", "focus", "pupil", "resolution", "looks", "exposure", "camera", "wave", "frames"});
     command.positional("input", options->input, "F.h5|X.h5|SCENE",
@@ -228,7 +297,7 @@ void add_photo(Command& command, Session& session) {
     command.look_up("seed")->acts_if(
         [options] { return options->hologram.is_seeded && !options->photo.waves.is_speckle_free(); });
     options->field.declare(command, false);
-    options->field.declare_reconstruction(command);
+    options->field.declare_reconstruction(command, true);
     command.add_like_option();
     command.work([options, &session] { return photo(*options, session); });
 }

@@ -132,8 +132,11 @@ struct ExternalField {
     std::optional<double> zero = {};
     std::string variable = {};  ///< array to read if the file has several, or two: "re,im"
     bool conjugate = false;     ///< whether the file's time factor is e^{+iωt}
-    std::size_t colour = 0;     ///< index of the field, below ExternalFacts::colours
-    PanelLevels panel = {};     ///< for field_entries()
+    /// Whether pictures are reflectances: phases have the modulus 1, and the largest level of amplitudes is 1.
+    /// Otherwise the field of a pattern has the power that `hogel slm` states.
+    bool reflectance = false;
+    std::size_t colour = 0;   ///< index of the field, below ExternalFacts::colours
+    PanelLevels panel = {};   ///< for field_entries()
     std::size_t largest = 0;  ///< number V of the phase code, or of amplitude 1; 0: the largest that the file can hold
 };
 

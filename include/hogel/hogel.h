@@ -5,6 +5,7 @@
 // together.
 
 #include "hogel/array.h"
+#include "hogel/bench.h"
 #include "hogel/camera.h"
 #include "hogel/communicator.h"
 #include "hogel/compress.h"

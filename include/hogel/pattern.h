@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -112,6 +113,8 @@ struct Aperture {
 /// Describes an aperture in words: in cycles per pixel, and in millimetres behind a lens of 200 mm focal length.
 /// @param per_cycle  wavelength divided by the pixel pitch
 HOGEL_API std::string describe(const Aperture& aperture, double per_cycle);
+/// Returns the aperture of a text of describe(); nothing for other texts.
+HOGEL_API std::optional<Aperture> parse_aperture(const std::string& text);
 
 /// The pixel values of a modulator for one wavelength.
 struct Pattern {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hogel/bench.h"
 #include "hogel/camera.h"
 #include "hogel/export.h"
 #include "hogel/field.h"
@@ -20,6 +21,7 @@
 #include "hogel/photograph.h"
 #include "hogel/pipeline.h"
 #include "hogel/propagate.h"
+#include "hogel/reconstruct.h"
 #include "hogel/scene_hologram.h"
 
 namespace hogel {
@@ -32,6 +34,9 @@ namespace hogel {
 /// length; Light::direction is the opposite, of unit length. COLOUR (default: white) times STRENGTH (default: 2.2) is
 /// the irradiance of a surface that faces the light. Throws Error(usage).
 HOGEL_API Light parse_light(const std::string& text);
+/// Parses the light source of a bench: "laser", "led:520nm,30nm,0.5mm" (mean wavelength, width at half maximum,
+/// diameter) or "sources:16,2mm" (points, diameter). Throws Error(usage).
+HOGEL_API LightSource parse_light_source(const std::string& text);
 /// Returns the text of a light for parse_light(). Empty for a point light, a cone, or a light without shadows.
 HOGEL_API std::string light_text(const Light& light);
 
@@ -347,6 +352,9 @@ struct HOGEL_API FieldParameters {
     std::optional<Vec3> reference_source;
     std::optional<double> focal;  ///< metres
 
+    bool is_reflectance = false;  ///< for ExternalField::reflectance
+    double device_pitch = 0;      ///< pitch of a file that does not contain it, metres; 0: it must be given
+
     bool is_opened = false;  ///< whether a field of another program is open; set by open()
 
     /// Declares the options that describe the file.
@@ -354,7 +362,8 @@ struct HOGEL_API FieldParameters {
     /// @param brief     short help, for commands that refer to `photo`
     void declare(Parameters& parameters, bool sampling = true, bool brief = false);
     /// Declares the options of the diffraction order, the reference wave and the lens.
-    void declare_reconstruction(Parameters& parameters);
+    /// @param with_bench  whether the command has a bench, whose lens --focal is
+    void declare_reconstruction(Parameters& parameters, bool with_bench = false);
 
     /// Returns whether a file is a field of another program: an array, a pattern, or a picture that options describe.
     bool is_external(const std::string& name) const;
@@ -364,6 +373,9 @@ struct HOGEL_API FieldParameters {
     void require_described(const std::string& name) const;
     /// Returns the description of the file, without its sampling. Throws Error(usage).
     ExternalField external_field() const;
+
+    /// Returns the order and its aperture. Throws Error(usage).
+    OrderSelection selection() const;
 
     /// Opens a hologram or a field of another program, and stores the values in the file. Throws Error(usage) if
     /// neither the file nor an option gives the sampling, and if an option describes a hologram; Error(bad_input) for
@@ -407,6 +419,7 @@ struct HOGEL_API CameraParameters {
     std::size_t frames = 1;
     double frame_rate = defaults.frame_rate;  ///< frames per second
     bool is_film = false;                     ///< whether the output is a film
+    bool is_bench = false;                    ///< whether only the focus has an effect, as on a bench
 
     /// Returns the camera of each picture of a hologram of this size (metres). Throws Error(usage).
     std::vector<Camera> cameras(double width, double height) const;
@@ -466,10 +479,36 @@ struct HOGEL_API WaveCameraParameters {
     void read_looks();
 };
 
-/// A photograph by geometric optics or by wave optics.
+/// The optical bench of photographs of patterns: its lens is FieldParameters::focal without a reconstruction.
+struct HOGEL_API BenchParameters {
+    std::string device;                 ///< modulator of a file that does not describe it; for find_modulator()
+    std::string source = "laser";       ///< for parse_light_source()
+    std::optional<double> fill_factor;  ///< share of a pixel's area that modulates; default: of the device, or 1
+    double zero_order_stop = 0;         ///< radius, cycles per pixel; 0: none
+
+    bool is_used = false;  ///< set by resolve()
+
+    /// Sets what a picture of levels needs to be opened, from the profile of the device.
+    void describe(const std::string& input, FieldParameters& field) const;
+    /// Decides whether the photograph is one on the bench. Throws Error(usage) for an input that is no pattern, and for
+    /// options of the bench without its lens, or of other cameras with it.
+    void resolve(const std::string& input, FieldParameters& field, const Parameters& table);
+    /// Returns the bench for an opened pattern. Without --order and --aperture the aperture is that of the pattern's
+    /// file, or else the largest. Throws Error(usage).
+    Bench bench(const std::string& input, const FieldSource& pattern, const FieldParameters& field, double focus) const;
+    /// Returns the power of the light on a pattern's modulator that its file states, for a wavelength in metres;
+    /// else 1.
+    double power(const std::string& input, double wavelength) const;
+    /// Returns notes_about() the device. Throws Error(usage) if the patterns do not have its pixels.
+    std::vector<std::string> notes(const std::string& input, const Fields& patterns) const;
+    void declare(Parameters& parameters);
+};
+
+/// A photograph by geometric optics or by wave optics, or on a bench.
 struct HOGEL_API PhotoParameters {
     CameraParameters view;
     WaveCameraParameters waves{.looks = std::to_string(defaults.looks)};
+    BenchParameters bench;
     std::size_t pupil_samples = defaults.pupil_samples;  ///< points of the pupil, by geometric optics
     std::string exposure = "auto";
     std::string display = "intensity";

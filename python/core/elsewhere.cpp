@@ -65,6 +65,7 @@ void add_external_fields(py::module_& module) {
         .def_readwrite("zero", &ExternalField::zero)
         .def_readwrite("variable", &ExternalField::variable)
         .def_readwrite("conjugate", &ExternalField::conjugate)
+        .def_readwrite("reflectance", &ExternalField::reflectance)
         .def_readwrite("colour", &ExternalField::colour)
         .def_readwrite("panel", &ExternalField::panel)
         .def_readwrite("largest", &ExternalField::largest);

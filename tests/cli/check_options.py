@@ -43,6 +43,10 @@ TABLE = [
      --geometric --pitch=1um --values=phase --variable=a --conjugate"""),
     ("photo f.h5 -o w.png --camera full", "--film-distance=-1mm --film-distance=1um"),
     ("photo x.h5 -o w.png", "--focus-tilt=10deg --camera=full"),
+    ("photo f.h5 -o w.png", "--focal=200mm --source=laser --fill-factor=0.5 --zero-order-stop=0.1 --device=zeus"),
+    ("photo b.png -o w.png --focal 200mm",
+     """--focal=0mm --source=lamp --source=led:520nm,30nm --source=sources:0,1mm --source=sources:9999,1mm --fill-factor=0 --fill-factor=2
+     --zero-order-stop=-1 --aperture=0.6 --order=0.7,0 --focus=100m --eye=0,0,40mm --camera=full --looks=2 --display=phase --device=leto"""),
     ("photo f.h5 -o w.png --camera full --display phase", "--resume"),
     (f"photo sphere -o w.png {PHOTO} {SMALL}", "--pupil=20mm --pitch=3um --eye=30,0,40mm"),
     ("focus f.h5", "--region=0 --region=x --colour=0 --colour=2 --planes=3 --from=1mm --values=phase"),

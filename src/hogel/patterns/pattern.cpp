@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
+#include <regex>
 
 #include "hogel/core/stop_scope.h"
 #include "hogel/math/fft.h"
@@ -224,6 +226,17 @@ std::string describe(const Aperture& aperture, double per_cycle) {
         middle = fmt::format(" around {:.4f} to the right and {:.4f} up", aperture.x, 0.0 - aperture.y);
     return fmt::format("radius {:.4f} cycles a pixel{}, {:.2f} mm at a lens of 200 mm", aperture.radius, middle,
                        aperture.radius * per_cycle * focal_length / 1e-3);
+}
+
+std::optional<Aperture> parse_aperture(const std::string& text) {
+    static const std::regex form(
+        R"(radius (\S+) cycles a pixel(?: around (\S+) to the right and (\S+) up)?, \S+ mm at a lens of 200 mm)");
+    std::smatch parts;
+    if (!std::regex_match(text, parts, form)) return {};
+    const auto number = [&](std::size_t i) {
+        return parts[i].matched ? std::strtod(parts[i].str().c_str(), nullptr) : 0;
+    };
+    return Aperture{number(2), 0.0 - number(3), number(1)};
 }
 
 namespace patterns {

@@ -66,10 +66,13 @@ std::vector<Camera> CameraParameters::cameras(double width, double height) const
 }
 
 void CameraParameters::declare(Parameters& parameters) {
-    parameters.group("Camera");
+    const auto is_eye = [this] { return !is_bench; };
+    parameters.group("Camera", is_eye);
     parameters.point("--eye", eye, "Centre of the lens; the hologram is centred on 0,0,0");
     parameters.point("--gaze", gaze, "Point in the middle of the picture");
+    parameters.group("Camera");
     parameters.length("--focus", focus, "Depth in focus: positive behind the hologram, negative in front");
+    parameters.group("Camera", is_eye);
     parameters.angles("--focus-tilt", focus_tilt,
                       "Tilt of the plane in focus, as by a tilted film: its depth grows to the right and upwards; "
                       "one angle for both, or one each");

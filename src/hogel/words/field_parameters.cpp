@@ -91,6 +91,8 @@ void complete_sampling(FieldParameters& field, const std::string& name, const Pa
         external.pitch_x = facts.pitch_x;
         external.pitch_y = facts.pitch_y;
         field.pitch = facts.pitch_x == facts.pitch_y ? facts.pitch_x : 0;
+    } else if (field.device_pitch > 0) {
+        external.pitch_x = external.pitch_y = field.pitch = field.device_pitch;
     } else {
         throw Error(ErrorCode::usage, "pitch",
                     fmt::format("{} does not contain the pitch of its samples{}", name, why));
@@ -110,32 +112,6 @@ void complete_sampling(FieldParameters& field, const std::string& name, const Pa
                                 facts.colours == 1 ? "one is needed" : "e.g. 638nm,520nm,450nm"));
 }
 
-OrderSelection selection_of(const FieldParameters& field) {
-    using Which = OrderSelection::Which;
-    if (field.aperture < 0) throw Error(ErrorCode::usage, "aperture", "expected a positive radius");
-    OrderSelection selection;
-    selection.without_mean = field.values == "intensity";
-    selection.reference_source = field.reference_source;
-    selection.radius = field.aperture;
-    if (field.order.empty() || field.order == "0") return selection;
-    const std::size_t comma = field.order.find(',');
-    const auto x = parse_number(field.order.substr(0, comma));
-    const auto y = comma == std::string::npos ? std::nullopt : parse_number(field.order.substr(comma + 1));
-    if (field.order == "+1") {
-        selection.which = Which::right;
-    } else if (field.order == "-1") {
-        selection.which = Which::left;
-    } else if (x && y) {
-        selection.which = Which::at;
-        selection.frequency_x = *x;
-        selection.frequency_y = *y;
-    } else {
-        throw Error(ErrorCode::usage, "order",
-                    fmt::format("'{}' is none of +1, -1, 0 and FX,FY in cycles per sample, e.g. 0.25,0", field.order));
-    }
-    return selection;
-}
-
 // Selects the diffraction order of opened fields and computes the image behind a lens, as the parameters specify.
 void make_images(const FieldParameters& field, OpenedFields& opened, const Progress& progress) {
     const bool image = field.reconstruct != "none";
@@ -143,7 +119,7 @@ void make_images(const FieldParameters& field, OpenedFields& opened, const Progr
         throw Error(ErrorCode::usage, "focal",
                     image ? fmt::format("reconstruct {} needs a focal length or distance", field.reconstruct)
                           : "needs a reconstruction; add reconstruct");
-    const OrderSelection selection = selection_of(field);
+    const OrderSelection selection = field.selection();
     const bool select =
         !field.order.empty() || field.aperture > 0 || selection.without_mean || selection.reference_source;
     for (std::size_t c = 0; c < opened.fields.size(); ++c) {
@@ -201,7 +177,7 @@ void FieldParameters::declare(Parameters& parameters, bool sampling, bool brief)
     parameters.flag("--conjugate", conjugate, "The field has the time dependence e^(+iwt)");
 }
 
-void FieldParameters::declare_reconstruction(Parameters& parameters) {
+void FieldParameters::declare_reconstruction(Parameters& parameters, bool with_bench) {
     parameters.group("Reconstruction");
     parameters.text("--order", order, "0|+1|-1|FX,FY",
                     "Diffraction order of the object, cut out and moved to the middle of the spectrum:\n"
@@ -219,7 +195,10 @@ void FieldParameters::declare_reconstruction(Parameters& parameters) {
                 "fourier: a lens of focal length --focal, at that distance from both\n"
                 "fresnel: free space of length --focal, by one Fourier transform")
         .no_default();
-    parameters.length("--focal", focal, "Focal length of the lens (fourier), or distance (fresnel)");
+    parameters.length("--focal", focal,
+                      with_bench ? "Focal length of the lens (fourier), or distance (fresnel); of both lenses of the "
+                                   "bench, if there is no reconstruction"
+                                 : "Focal length of the lens (fourier), or distance (fresnel)");
 }
 
 bool FieldParameters::is_external(const std::string& name) const {
@@ -262,7 +241,34 @@ ExternalField FieldParameters::external_field() const {
     }
     external.variable = variable;
     external.conjugate = conjugate;
+    external.reflectance = is_reflectance;
     return external;
+}
+
+OrderSelection FieldParameters::selection() const {
+    using Which = OrderSelection::Which;
+    if (aperture < 0) throw Error(ErrorCode::usage, "aperture", "expected a positive radius");
+    OrderSelection found;
+    found.without_mean = values == "intensity";
+    found.reference_source = reference_source;
+    found.radius = aperture;
+    if (order.empty() || order == "0") return found;
+    const std::size_t comma = order.find(',');
+    const auto x = parse_number(order.substr(0, comma));
+    const auto y = comma == std::string::npos ? std::nullopt : parse_number(order.substr(comma + 1));
+    if (order == "+1") {
+        found.which = Which::right;
+    } else if (order == "-1") {
+        found.which = Which::left;
+    } else if (x && y) {
+        found.which = Which::at;
+        found.frequency_x = *x;
+        found.frequency_y = *y;
+    } else {
+        throw Error(ErrorCode::usage, "order",
+                    fmt::format("'{}' is none of +1, -1, 0 and FX,FY in cycles per sample, e.g. 0.25,0", order));
+    }
+    return found;
 }
 
 OpenedFields FieldParameters::open(const std::string& name, const Parameters& table) {

@@ -142,6 +142,13 @@ void WaveCameraParameters::declare(Parameters& parameters) {
 }
 
 void PhotoParameters::resolve(PhotographSource photographed) {
+    if (bench.is_used) {  // no option of the eye's cameras acts
+        if (display == "phase") refuse("display", "phase is that of the full camera; leave it out on the bench");
+        view.is_bench = true;
+        waves.source = PhotographSource::rays;
+        geometric = wave = false;
+        return;
+    }
     if (geometric && photographed == PhotographSource::samples)
         refuse("geometric", "a hologram has no rays to follow; give its light field or scene");
     waves.resolve(photographed);
@@ -177,6 +184,7 @@ void PhotoParameters::declare(Parameters& parameters) {
         .acts_if([this] { return wave && waves.source != PhotographSource::samples; });
     parameters.count("--pupil-samples", pupil_samples, "Sample points of the pupil in a geometric photograph")
         .acts_if([this] { return geometric; });
+    bench.declare(parameters);
 }
 
 }  // namespace hogel

@@ -162,7 +162,9 @@ std::unique_ptr<FieldSource> open_picture_field(const std::filesystem::path& pat
     if (content == Content::complex)
         convert.set_zero(zero_of(first, colour[0], description), zero_of(second, colour[1], description));
     // A pattern holds scaled amplitudes: its largest level is amplitude 1 of the illumination.
-    const double power = two ? 0 : power_of_pattern(read_metadata(path), field->grid().wavelength);
+    const double power = two                       ? 0
+                         : description.reflectance ? 1
+                                                   : power_of_pattern(read_metadata(path), field->grid().wavelength);
     const bool levels = resolved.values == ExternalField::Values::amplitude && largest > 0;
     const auto scale =
         static_cast<float>(power > 0 ? std::sqrt(power) / (levels ? static_cast<double>(largest) : 1) : 1);

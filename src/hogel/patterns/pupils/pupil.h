@@ -11,8 +11,9 @@ namespace hogel::patterns {
 /// of the modulator are seen in the same directions.
 struct Pupil {
     Aperture aperture;
-    double focus = 0;      ///< depth ζ, metres
-    std::size_t size = 0;  ///< index of the radius, below PupilRange::radii
+    double focus = 0;               ///< depth ζ, metres
+    std::size_t size = 0;           ///< index of the radius, below PupilRange::radii
+    double axis_x = 0, axis_y = 0;  ///< frequency of light along the camera's axis, cycles per pixel
 };
 
 /// Range of pupils whose photographs show a light field: those within its directions, in focus within its depths.
