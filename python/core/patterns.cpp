@@ -6,10 +6,12 @@
 
 #include "arrays.h"
 #include "core.h"
+#include "hogel/bench.h"
 #include "hogel/field.h"
 #include "hogel/files.h"
 #include "hogel/image.h"
 #include "hogel/phase_code.h"
+#include "hogel/requests.h"
 #include "keywords.h"
 
 namespace hogel::python {
@@ -194,6 +196,44 @@ void add_pattern_keywords(py::module_& module) {
         arg("keywords"), arg("encoded"), arg("fields"));
 }
 
+void add_bench(py::module_& module) {
+    py::class_<LightSource> source(module, "LightSource");
+    py::enum_<LightSource::Kind>(source, "Kind")
+        .value("laser", LightSource::Kind::laser)
+        .value("led", LightSource::Kind::led)
+        .value("points", LightSource::Kind::points);
+    source.def(py::init<>())
+        .def_readwrite("kind", &LightSource::kind)
+        .def_readwrite("size", &LightSource::size)
+        .def_readwrite("points", &LightSource::points)
+        .def_readwrite("wavelength", &LightSource::wavelength)
+        .def_readwrite("bandwidth", &LightSource::bandwidth);
+    py::class_<Bench>(module, "Bench")
+        .def(py::init<>())
+        .def_readwrite("focal_length", &Bench::focal_length)
+        .def_readwrite("aperture", &Bench::aperture)
+        .def_readwrite("zero_order_stop", &Bench::zero_order_stop)
+        .def_readwrite("focus", &Bench::focus)
+        .def_readwrite("fill_factor", &Bench::fill_factor)
+        .def_readwrite("source", &Bench::source);
+    py::class_<BenchPhotograph>(module, "BenchPhotograph")
+        .def_readonly("picture", &BenchPhotograph::picture)
+        .def_readonly("contrast", &BenchPhotograph::contrast)
+        .def_readonly("efficiency", &BenchPhotograph::efficiency)
+        .def_readonly("resolution", &BenchPhotograph::resolution)
+        .def_readonly("points", &BenchPhotograph::points)
+        .def_readonly("wavelengths", &BenchPhotograph::wavelengths)
+        .def_readonly("is_converged", &BenchPhotograph::is_converged);
+    module.def("parse_light_source", &parse_light_source, arg("text"));
+    module.def("parse_aperture", &parse_aperture, arg("text"));
+    module.def(
+        "photograph_on_bench",
+        [](const Source& pattern, const Bench& bench, const py::object& report) {
+            return run_for(report, [&](const Progress& p) { return photograph_on_bench(*pattern, bench, p); });
+        },
+        arg("pattern"), arg("bench"), arg("report"));
+}
+
 }  // namespace
 
 void add_patterns(py::module_& module) {
@@ -215,9 +255,14 @@ void add_patterns(py::module_& module) {
         .def_readwrite("iterations", &PatternOptions::iterations)
         .def_readwrite("phase_code", &PatternOptions::phase_code);
     py::class_<Aperture>(module, "Aperture")
+        .def(py::init([](double x, double y, double radius) {
+                 return Aperture{x, y, radius};
+             }),
+             arg("x"), arg("y"), arg("radius"))
         .def_readonly("x", &Aperture::x)
         .def_readonly("y", &Aperture::y)
         .def_readonly("radius", &Aperture::radius);
+    add_bench(module);
     py::class_<PupilQuality>(module, "PupilQuality")
         .def_readonly("psnr", &PupilQuality::psnr)
         .def_readonly("lowest_psnr", &PupilQuality::lowest_psnr)

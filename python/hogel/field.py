@@ -298,6 +298,38 @@ class Field(Samples):
         with reporting(progress, "cutting the order out") as report:
             return Field(_core.select_order(self._source, selection, report)[0], "in memory")
 
+    def photograph_on_bench(
+        self,
+        focal: Any,
+        *,
+        at: Sequence[float] = (0, 0),
+        aperture: float = 0,
+        focus: Any = 0,
+        fill_factor: float = 1,
+        zero_order_stop: float = 0,
+        source: str = "laser",
+        progress: Progress = None,
+    ) -> tuple[Picture, dict[str, Any]]:
+        """Photographs the field as the reflectance of a modulator's pixels on an optical bench with lenses of a focal length,
+        as `hogel photo --focal`. `at`, `aperture`: middle (x, y) and radius of the aperture, cycles per pixel. Returns the
+        picture, in which a mirror is 1, and the speckle contrast, efficiency, resolution and source of docs/modulators.md.
+
+        >>> import hogel, numpy as np
+        >>> mirror = hogel.Field.from_array(np.ones((64, 64), np.complex64), pitch="8um", wavelength="532nm")
+        >>> picture, measures = mirror.photograph_on_bench("200mm", aperture=0.25, source="sources:4,1mm")
+        >>> picture, measures["points"], round(measures["resolution"] * 1e6, 2)
+        (Picture(64x64 pixels, 1 channel), 4, 19.52)
+        """
+        bench = _core.Bench()
+        bench.focal_length, bench.focus = units.length(focal, "focal"), units.length(focus, "focus")
+        bench.aperture = _core.Aperture(float(at[0]), -float(at[1]), aperture)
+        bench.fill_factor, bench.zero_order_stop = fill_factor, zero_order_stop
+        bench.source = _core.parse_light_source(source)
+        with reporting(progress, "photograph on the bench") as report:
+            taken = _core.photograph_on_bench(self._source, bench, report)
+        names = ("contrast", "efficiency", "resolution", "points", "wavelengths", "is_converged")
+        return Picture(taken.picture), {name: getattr(taken, name) for name in names}
+
     @takes(_core.wave_photograph_keywords())
     def photograph(self, *, cameras: Optional[Sequence[_core.Camera]] = None, progress: Progress = None, **options: Any) -> Any:
         """Photographs the field as a hologram of one wavelength: see Hologram.photograph().
