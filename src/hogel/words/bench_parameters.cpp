@@ -34,9 +34,7 @@ std::string stated(const std::string& input, const std::string& what, double wav
     return "";
 }
 
-}  // namespace
-
-LightSource parse_light_source(const std::string& text) {
+LightSource parsed_source(const std::string& text) {
     const std::size_t colon = text.find(':');
     const std::string kind = text.substr(0, colon);
     std::vector<std::string> values;
@@ -57,6 +55,12 @@ LightSource parse_light_source(const std::string& text) {
         refuse_bench("source", fmt::format("'{}' is none of {}", text, source_forms));
     }
     return source;
+}
+
+}  // namespace
+
+LightSource parse_light_source(const std::string& text) {
+    return with_parameter("source", [&] { return parsed_source(text); });
 }
 
 void BenchParameters::describe(const std::string& input, FieldParameters& field) const {
@@ -104,7 +108,7 @@ double BenchParameters::power(const std::string& input, double wavelength) const
 Bench BenchParameters::bench(const std::string& input, const FieldSource& pattern, const FieldParameters& field,
                              double focus) const {
     Bench bench{.focal_length = *field.focal, .zero_order_stop = zero_order_stop, .focus = focus};
-    bench.source = with_parameter("source", [&] { return parse_light_source(source); });
+    bench.source = parse_light_source(source);
     bench.fill_factor = fill_factor.value_or(1);
     if (!fill_factor && !device.empty())
         if (const double of_device = find_modulator(device).fill_factor; of_device > 0) bench.fill_factor = of_device;
