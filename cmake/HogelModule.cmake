@@ -90,7 +90,7 @@ function(hogel_embed_profiles target)
     string(APPEND profiles "    {\"${name}\", R\"json(${text})json\"},\n")
   endforeach()
   set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
-  configure_file(${PROJECT_SOURCE_DIR}/src/hogel/patterns/own_profiles.h.in ${PROJECT_BINARY_DIR}/embedded/own_profiles.h @ONLY)
+  configure_file(${PROJECT_SOURCE_DIR}/src/hogel/core/own_profiles.h.in ${PROJECT_BINARY_DIR}/embedded/own_profiles.h @ONLY)
   target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/embedded)
 endfunction()
 

@@ -99,20 +99,36 @@ HOGEL_API void write_views(const LightField& light_field, LightFieldSink& sink, 
 
 /// A display that shows a quilt: a picture of one row of cameras as tiles (docs/exchange.md).
 struct QuiltDisplay {
-    std::string name;                   ///< "lkg-portrait"
-    std::size_t columns = 0, rows = 0;  ///< of tiles, one a view
-    std::size_t width = 0, height = 0;  ///< of the quilt, pixels
-    double aspect = 0;                  ///< width/height of the display; pixels of a tile need not be square
-    double cone = 0;                    ///< full angle of the cameras, seen from the display, radians
-    std::string source;                 ///< address of the figures
+    std::string name;                       ///< "lkg-portrait"
+    std::size_t columns = 0, rows = 0;      ///< of tiles, one a view
+    std::size_t width = 0, height = 0;      ///< of the quilt, pixels
+    double aspect = 0;                      ///< width/height of the display; pixels of a tile need not be square
+    double cone = 0;                        ///< full angle of the cameras, seen from the display, radians
+    std::string source = {};                ///< address of the figures
+    std::string title = {};                 ///< maker and model
+    std::vector<std::string> aliases = {};  ///< other names, for find_quilt_display()
+    bool verified = true;                   ///< whether the figures were compared with `source`
+    std::string note = {};                  ///< one line for its user
+    std::string fault = {};                 ///< why the user's profile cannot be used, or empty
 
     /// Return the pixels of a tile. The rest of a quilt that does not divide is a black margin, right and at the top.
     std::size_t tile_width() const { return width / columns; }
     std::size_t tile_height() const { return height / rows; }
 };
 
-/// Returns all displays for quilts.
+/// Returns all displays for quilts, those with the fewest pixels first: of hogel's profiles and of the user's, as
+/// modulators() does.
 HOGEL_API Table<QuiltDisplay>& quilt_displays();
+
+/// Returns the names and aliases of quilt_displays().
+HOGEL_API std::vector<std::string> quilt_display_names();
+
+/// Returns the row of quilt_displays() with this name or alias, in upper or lower case. Throws Error(usage) for an
+/// unknown name and for a device of another kind, and Error(bad_input) for a profile of the user with a fault.
+HOGEL_API QuiltDisplay find_quilt_display(const std::string& name);
+
+/// Returns what the user of a display should know: that its profile is not verified, and the profile's note.
+HOGEL_API std::vector<std::string> notes_about(const QuiltDisplay& display);
 
 /// Options of export_views().
 struct ViewExportOptions {

@@ -101,7 +101,8 @@ struct HOGEL_API ExportParameters {
     /// Returns the options of export_views(). Throws Error(usage).
     ViewExportOptions options() const;
     /// Derives values from the name of the output: the layout unless it is given, the picture format of a quilt, and
-    /// the pictures of a film. Throws Error(usage) for an unknown layout, and for a device with another layout.
+    /// the pictures of a film. Stores the device's name as quilt_displays() spells it. Throws Error(usage) for an
+    /// unknown layout, and for a device with another layout, and as find_quilt_display() does.
     void resolve(const std::filesystem::path& output);
     /// Sets the grid of a scene's light field for a quilt, after resolve(): hogels, directions, field of view and focal
     /// plane. Without a device, selects the first display whose tiles are those of the name. Throws Error(usage) if

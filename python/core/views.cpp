@@ -146,9 +146,15 @@ void add_view_sets(py::module_& module) {
         .def_readonly("aspect", &QuiltDisplay::aspect)
         .def_readonly("cone", &QuiltDisplay::cone)
         .def_readonly("source", &QuiltDisplay::source)
+        .def_readonly("title", &QuiltDisplay::title)
+        .def_readonly("aliases", &QuiltDisplay::aliases)
+        .def_readonly("verified", &QuiltDisplay::verified)
+        .def_readonly("note", &QuiltDisplay::note)
+        .def_readonly("fault", &QuiltDisplay::fault)
         .def_property_readonly("tile_width", &QuiltDisplay::tile_width)
         .def_property_readonly("tile_height", &QuiltDisplay::tile_height);
     module.def("quilt_displays", [] { return quilt_displays().rows(); });
+    module.def("quilt_display_names", &quilt_display_names);
     module.def("is_view_set", &is_view_set, arg("source"), py::call_guard<py::gil_scoped_release>());
     module.def(
         "import_views",

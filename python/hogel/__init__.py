@@ -201,13 +201,13 @@ def modulators() -> list[str]:
 
 
 def quilt_displays() -> list[str]:
-    """Returns the names of displays for quilts, for `device` of export().
+    """Returns the names of displays for quilts, and their other names, for `device` of export().
 
     >>> import hogel
     >>> "lkg-portrait" in hogel.quilt_displays()
     True
     """
-    return [display.name for display in _core.quilt_displays()]
+    return _core.quilt_display_names()
 
 
 def coders() -> list[str]:

@@ -208,6 +208,8 @@ ExportedViews write_views(const LightField& light_field, const ViewTarget& targe
     std::erase_if(exported.files, [](const auto& file) { return file.empty(); });
     exported.files.insert(exported.files.end(), more.begin(), more.end());
     exported.notes = writer->notes();
+    if (target.display)
+        for (std::string& note : notes_about(*target.display)) exported.notes.push_back(std::move(note));
     if (target.rows < grid.directions_v)
         exported.notes.push_back(
             fmt::format("one row of cameras: row {} of the {} rows of views", skipped_rows + 1, grid.directions_v));

@@ -1,36 +1,102 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <numbers>
+// Profiles of displays for quilts in JSON (docs/modulators.md).
+#include <fmt/format.h>
+#include <strings.h>
 
+#include <algorithm>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "hogel/core/profiles.h"
+#include "hogel/error.h"
 #include "hogel/exchange.h"
 
 namespace hogel {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double max_quilt_side = 65536, max_tiles = 4096;
 
-// Device templates of the maker's software.
-constexpr const char* toolkit =
-    "https://github.com/Looking-Glass/LKG-Toolkit/blob/0b6209bfa83c8eda5dd862666d4af83bd9e1ec67/Toolkit-API/"
-    "Implementations/Core/HardCodedLKGDeviceTemplates.cs";
-// What the display itself reports; the toolkit has 5999x5999 pixels of 7x7 tiles.
-constexpr const char* reported = "https://github.com/regcs/AliceLG/pull/147";
+QuiltDisplay read_display(const core::ProfileFile& file) {
+    const core::Profile profile(file);
+    profile.require_kind("quilt");
+    profile.require_known(
+        {"kind", "name", "aliases", "pixels", "tiles", "aspect", "cone_deg", "source", "verified", "note"});
+    QuiltDisplay display{.name = file.name};
+    std::tie(display.width, display.height) = profile.sides("pixels", max_quilt_side);
+    std::tie(display.columns, display.rows) = profile.sides("tiles", max_tiles);
+    if (display.columns > display.width || display.rows > display.height)
+        profile.fail("tiles", "at most one a pixel, across and down");
+    const auto required = [&](const std::string& member, double max, const std::string& expected) {
+        if (!profile.has(member)) profile.fail(member, expected);
+        return profile.number(member, max, expected);
+    };
+    display.aspect = required("aspect", 100, "width/height of the display, above 0, at most 100");
+    display.cone = required("cone_deg", 179, "an angle in degrees, above 0, at most 179") * std::numbers::pi / 180;
+    display.title = profile.text("name");
+    display.aliases = profile.texts("aliases");
+    display.source = profile.text("source");
+    display.verified = profile.flag("verified");
+    profile.require_source();
+    display.note = profile.text("note");
+    return display;
+}
+
+std::vector<QuiltDisplay> all_displays() {
+    std::vector<QuiltDisplay> displays;
+    for (const core::ProfileFile& file : core::profile_files()) {
+        if (core::kind_of(file) != "quilt") continue;
+        try {
+            displays.push_back(read_display(file));
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::bad_input) throw;
+            displays.push_back({.name = file.name, .fault = error.what()});
+        }
+    }
+    std::ranges::stable_sort(displays, {}, [](const QuiltDisplay& each) {
+        return std::pair(!each.fault.empty(), each.width * each.height);
+    });
+    return displays;
+}
 
 }  // namespace
 
 Table<QuiltDisplay>& quilt_displays() {
-    static Table<QuiltDisplay> table("display for quilts",
-                                     {{"lkg-portrait", 8, 6, 3360, 3360, 0.75, 40 * degree, toolkit},
-                                      {"lkg-go", 11, 6, 4092, 4092, 0.5625, 54 * degree, toolkit},
-                                      {"lkg-16-portrait", 11, 6, 5995, 6000, 0.5625, 50 * degree, toolkit},
-                                      {"lkg-16-landscape", 8, 6, 7680, 4320, 1.77778, 50 * degree, reported},
-                                      {"lkg-32-portrait", 11, 6, 8184, 8184, 0.5625, 54 * degree, toolkit},
-                                      {"lkg-32-landscape", 7, 7, 8190, 8190, 1.77778, 50 * degree, toolkit},
-                                      {"lkg-65", 8, 9, 8192, 8192, 1.77778, 40 * degree, toolkit},
-                                      {"lkg-8.9", 5, 9, 4096, 4096, 1.6, 40 * degree, toolkit},
-                                      {"lkg-15.6", 5, 9, 4096, 4096, 1.77778, 40 * degree, toolkit},
-                                      {"lkg-8k", 5, 9, 8192, 8192, 1.77778, 40 * degree, toolkit}},
-                                     "device");
+    static Table<QuiltDisplay> table("display for quilts", all_displays(), "device");
     return table;
+}
+
+std::vector<std::string> quilt_display_names() {
+    std::vector<std::string> names;
+    for (const QuiltDisplay& row : quilt_displays().rows()) {
+        names.push_back(row.name);
+        names.insert(names.end(), row.aliases.begin(), row.aliases.end());
+    }
+    return names;
+}
+
+QuiltDisplay find_quilt_display(const std::string& name) {
+    const std::vector<QuiltDisplay> rows = quilt_displays().rows();
+    const auto is_asked = [&](const std::string& word) { return strcasecmp(word.c_str(), name.c_str()) == 0; };
+    auto found = std::ranges::find_if(rows, is_asked, &QuiltDisplay::name);
+    if (found == rows.end())
+        found = std::ranges::find_if(
+            rows, [&](const QuiltDisplay& row) { return std::ranges::any_of(row.aliases, is_asked); });
+    if (found == rows.end()) {
+        core::require_kind(name, "quilt", quilt_display_names());
+        throw_unknown("display for quilts", name, quilt_display_names(), "device");
+    }
+    if (!found->fault.empty()) throw Error(ErrorCode::bad_input, "device", found->fault);
+    return *found;
+}
+
+std::vector<std::string> notes_about(const QuiltDisplay& display) {
+    std::vector<std::string> notes;
+    if (!display.verified)
+        notes.push_back(fmt::format("profile {} is not verified: check its tiles and cone against the data sheet{}",
+                                    display.name, display.source.empty() ? "" : " (" + display.source + ")"));
+    if (!display.note.empty()) notes.push_back(fmt::format("profile {}: {}", display.name, display.note));
+    return notes;
 }
 
 }  // namespace hogel

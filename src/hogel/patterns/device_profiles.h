@@ -15,12 +15,14 @@ namespace hogel::patterns {
 /// @param file  name for messages
 Modulator read_profile(const std::string& name, std::string_view text, const std::string& file);
 
-/// Returns hogel's own profiles, or those of *.json in a folder, by name. A profile with an error is a Modulator with a
-/// `fault`. A missing folder has none.
+/// Returns the modulators of hogel's own profiles, of *.json in a folder, or of hogel's and the user's, by name. A
+/// profile with an error is a Modulator with a `fault`. A missing folder has none.
 std::vector<Modulator> own_profiles();
 std::vector<Modulator> profiles_in(const std::filesystem::path& folder);
+std::vector<Modulator> all_profiles();
 
-/// Returns the folder of the user's profiles, or an empty path without a home.
-std::filesystem::path user_profiles();
+/// Throws Error(usage) if a device of this name is no modulator.
+/// @param known  names of the modulators
+void require_modulator(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace hogel::patterns

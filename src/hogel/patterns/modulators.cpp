@@ -10,25 +10,9 @@
 #include "hogel/units.h"
 
 namespace hogel {
-namespace {
-
-// Profiles of the user replace hogel's of the same name.
-std::vector<Modulator> all_profiles() {
-    std::vector<Modulator> profiles = patterns::own_profiles();
-    for (Modulator& users : patterns::profiles_in(patterns::user_profiles())) {
-        const auto same = std::ranges::find(profiles, users.name, &Modulator::name);
-        if (same == profiles.end())
-            profiles.push_back(std::move(users));
-        else
-            *same = std::move(users);
-    }
-    return profiles;
-}
-
-}  // namespace
 
 Table<Modulator>& modulators() {
-    static Table<Modulator> table("modulator", all_profiles(), "device");
+    static Table<Modulator> table("modulator", patterns::all_profiles(), "device");
     return table;
 }
 
@@ -42,6 +26,7 @@ Modulator find_modulator(const std::string& name) {
     if (found == rows.end())
         found = std::ranges::find_if(rows,
                                      [&](const Modulator& row) { return std::ranges::any_of(row.aliases, is_asked); });
+    if (found == rows.end()) patterns::require_modulator(name, modulator_names());
     if (found == rows.end()) throw_unknown("modulator", name, modulator_names(), "device");
     if (!found->fault.empty()) throw Error(ErrorCode::bad_input, "device", found->fault);
     return *found;

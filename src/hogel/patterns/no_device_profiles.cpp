@@ -13,6 +13,8 @@ std::vector<Modulator> patterns::own_profiles() { return {}; }
 
 std::vector<Modulator> patterns::profiles_in(const std::filesystem::path&) { return {}; }
 
-std::filesystem::path patterns::user_profiles() { return {}; }
+std::vector<Modulator> patterns::all_profiles() { return {}; }
+
+void patterns::require_modulator(const std::string&, const std::vector<std::string>&) {}
 
 }  // namespace hogel

@@ -31,15 +31,17 @@ std::string list_of_layouts() {
 std::string list_of_displays() {
     std::string lines;
     for (const QuiltDisplay& display : quilt_displays().rows())
-        lines += fmt::format("\n{}: {}x{} pixels, _qs{}x{}a{:.5g}", display.name, display.width, display.height,
-                             display.columns, display.rows, display.aspect);
+        lines += !display.fault.empty() ? fmt::format("\n{}: has a fault in its profile", display.name)
+                                        : fmt::format("\n{}: {}x{} pixels, _qs{}x{}a{:.5g}{}", display.name,
+                                                      display.width, display.height, display.columns, display.rows,
+                                                      display.aspect, display.verified ? "" : " (not verified)");
     return lines;
 }
 
 // Returns the first display whose quilts have this name; empty: none.
 std::string display_named(const exchange::QuiltTiling& tiling) {
     for (const QuiltDisplay& display : quilt_displays().rows())
-        if (display.columns == tiling.columns && display.rows == tiling.rows &&
+        if (display.fault.empty() && display.columns == tiling.columns && display.rows == tiling.rows &&
             exchange::is_same_aspect(tiling.aspect, display.aspect))
             return display.name;
     return {};
@@ -100,11 +102,12 @@ ViewExportOptions ExportParameters::options() const {
     asked.bits = static_cast<unsigned>(std::min(bits, too_many_bits));
     asked.transfer = transfer_named(transfer);
     asked.exposure = parse_exposure(exposure.empty() ? "1" : exposure);
-    if (!device.empty()) asked.display = quilt_displays().find(device);
+    if (!device.empty()) asked.display = find_quilt_display(device);
     return asked;
 }
 
 void ExportParameters::resolve(const std::filesystem::path& output) {
+    if (!device.empty()) device = find_quilt_display(device).name;
     is_film = hogel::is_film(output);
     if (exposure.empty() && is_film) exposure = "auto";
     if (is_film) {
@@ -120,7 +123,6 @@ void ExportParameters::resolve(const std::filesystem::path& output) {
     if (exposure.empty()) exposure = is_quilt() ? "auto" : "1";
     if (!device.empty() && !is_quilt())
         throw Error(ErrorCode::usage, "device", fmt::format("{} shows quilts; leave it out for other layouts", device));
-    if (!device.empty()) quilt_displays().find(device);
 }
 
 void ExportParameters::set_cameras(LightFieldParameters& scene, const std::filesystem::path& output,
@@ -142,7 +144,7 @@ void ExportParameters::set_cameras(LightFieldParameters& scene, const std::files
             hogels.rows = static_cast<std::size_t>(
                 std::max(1.0, std::round(static_cast<double>(hogels.columns) / tiling->aspect)));
     } else {
-        const QuiltDisplay& display = quilt_displays().find(device);
+        const QuiltDisplay display = find_quilt_display(device);
         directions.columns = display.columns * display.rows;
         field = display.cone;
         hogels = hogels_for(display);
@@ -163,7 +165,7 @@ std::string ExportParameters::note_about_depth(const Scene& placed, const LightF
     if (!is_quilt() || triangle_count(placed) == 0) return {};
     const LightFieldGrid grid = scene.grid();
     const double distance = -scene.focal_plane, spacing = distance * grid.step_u();
-    const std::size_t pixels = device.empty() ? grid.hogels_s : quilt_displays().find(device).tile_width();
+    const std::size_t pixels = device.empty() ? grid.hogels_s : find_quilt_display(device).tile_width();
     const double movement = max_disparity * grid.width() / static_cast<double>(pixels);
     const SharpDepths sharp = sharp_depths(distance, spacing, movement);
     const Bounds box = bounds(placed);
@@ -204,7 +206,7 @@ void ExportParameters::declare(Parameters& parameters) {
         .text("--device", device, "NAME",
               "Display of a quilt (default: of a scene, the first with the tiles of the name):" + list_of_displays())
         .no_default()
-        .knows(quilt_displays().names())
+        .knows(quilt_display_names())
         .acts_if([this] { return is_quilt(); });
     parameters
         .choice("--pictures", views.format, {"png", "ppm", "pfm", "exr"}, "FORMAT",
