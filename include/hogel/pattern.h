@@ -51,7 +51,8 @@ HOGEL_API Table<Modulator>& modulators();
 HOGEL_API std::vector<std::string> modulator_names();
 
 /// Returns the row of modulators() with this name or alias, in upper or lower case. Throws Error(usage) for an unknown
-/// name, with the nearest one and all, and Error(bad_input) for a profile of the user with a fault.
+/// name, with the nearest one and all, and for a device of another kind; Error(bad_input) for a profile of the user
+/// with a fault.
 HOGEL_API Modulator find_modulator(const std::string& name);
 
 /// Returns what the user of a modulator should know: that its profile is not verified, the profile's note, and
