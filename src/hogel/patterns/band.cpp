@@ -101,7 +101,10 @@ Aperture aperture_around(const CarriedOrder& order, Aperture of_field) {
 }
 
 FieldBand::FieldBand(View<const Complex, 2> field)
-    : fft_(field.extent(0), field.extent(1)), target_(field.shape()), active_(field.size()) {
+    : fft_(field.extent(0), field.extent(1)),
+      target_(field.shape()),
+      active_(field.size()),
+      active_columns_(field.extent(1)) {
     std::copy_n(field.data(), field.size(), target_.data());
     fft_.forward(target_);
     aperture_ = aperture_for(target_);
@@ -117,6 +120,8 @@ FieldBand::FieldBand(View<const Complex, 2> field)
         }
         return all;
     });
+    for (std::size_t y = 0; y < rows; ++y)
+        for (std::size_t x = 0; x < columns; ++x) active_columns_[x] |= active_[y * columns + x];
 }
 
 FieldBand::Match FieldBand::match(Array<Complex, 2>& pattern) const {

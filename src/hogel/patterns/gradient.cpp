@@ -7,6 +7,7 @@
 
 #include "hogel/optics/lines.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/patterns/phasors.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
@@ -63,11 +64,12 @@ class PatternError {
 
     double evaluate(const Numbers& phases, Numbers& gradient) {
         for_rows([&](std::size_t y, Complex* line) {
-            for (std::size_t x = 0; x < columns_; ++x) line[x] = std::polar(1.0f, phases(y, x));
+            phasors(&phases(y, 0), {line, columns_});
             row_fft_.forward(line);
         });
         std::vector<FieldBand::Sums> sums(columns_);
         for_columns([&](std::size_t x, Complex* column) {
+            if (!band_.has_column(x)) return;
             column_fft_.forward(column);
             for (std::size_t y = 0; y < rows_; ++y) band_.add(y, x, column[y], sums[x]);
         });
@@ -76,12 +78,15 @@ class PatternError {
         const FieldBand::Match match = band_.match(sum);
         for_columns([&](std::size_t x, Complex* column) {
             for (std::size_t y = 0; y < rows_; ++y) column[y] = band_.derivative(match, y, x, column[y]);
+            if (!band_.has_column(x)) return;
             column_fft_.backward(column);
         });
         for_rows([&](std::size_t y, Complex* line) {
             row_fft_.backward(line);
+            std::vector<Complex> pattern(columns_);
+            phasors(&phases(y, 0), pattern);
             for (std::size_t x = 0; x < columns_; ++x)
-                gradient(y, x) = -(std::conj(line[x]) * std::polar(1.0f, phases(y, x))).imag();
+                gradient(y, x) = line[x].imag() * pattern[x].real() - line[x].real() * pattern[x].imag();
         });
         return match.error;
     }

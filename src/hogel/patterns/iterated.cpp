@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/patterns/phasors.h"
 #include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
 namespace {
 
 using Complex = std::complex<float>;
-
-Complex unit(Complex value) {
-    const float modulus = std::abs(value);
-    return modulus > 0 ? value / modulus : Complex(1);
-}
 
 // First pixels of the squares that cover `length` pixels. The last square may overlap its neighbour.
 std::vector<std::size_t> squares_along(std::size_t side, std::size_t length) {
@@ -46,6 +42,7 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
     const std::vector<std::size_t> columns = squares_along(side, width), rows = squares_along(side, height);
     const std::size_t iterations = options.iterations > 0 ? options.iterations : projections;
     const math::Fft2 fft(side, side);
+    const std::vector<float> ones(side * side, 1.0f);  // the moduli of a phase modulator
     Array<float, 2> cycles(field.shape());
     for (std::size_t j = 0; j < rows.size(); ++j) {
         progress.report(static_cast<double>(j) / static_cast<double>(rows.size()));
@@ -57,21 +54,17 @@ Array<float, 2> iterate_phases(View<const Complex, 2> field, const PatternOption
             fft.forward(square);
             for (std::size_t p = 0; p < square.size(); ++p) moduli.data()[p] = std::abs(square.data()[p]);
             for (std::size_t k = 0; k <= iterations; ++k) {
-                for (std::size_t p = 0; p < square.size(); ++p)
-                    square.data()[p] = moduli.data()[p] * unit(square.data()[p]);
+                set_moduli(moduli.data(), square.elements());
                 fft.backward(square);
                 if (k == iterations) break;
-                for (Complex& value : square.elements()) value = unit(value);
+                set_moduli(ones.data(), square.elements());
                 fft.forward(square);
             }
             // Overlapping pixels keep the values of the earlier square.
             const std::size_t skip_x = i > 0 ? columns[i - 1] + side - x0 : 0;
             const std::size_t skip_y = j > 0 ? rows[j - 1] + side - y0 : 0;
             for (std::size_t y = skip_y; y < side; ++y)
-                for (std::size_t x = skip_x; x < side; ++x) {
-                    const auto phase = static_cast<float>(std::arg(square(y, x)) * (0.5 / std::numbers::pi));
-                    cycles(y0 + y, x0 + x) = phase < 0 ? phase + 1 : phase;
-                }
+                phases_of(&square(y, skip_x), {&cycles(y0 + y, x0 + skip_x), side - skip_x});
         });
     }
     return cycles;

@@ -13,6 +13,7 @@
 #include "hogel/core/stop_scope.h"
 #include "hogel/math/fft.h"
 #include "hogel/patterns/pattern_parts.h"
+#include "hogel/patterns/phasors.h"
 #include "hogel/units.h"
 #include "hogel/work/parallel.h"
 
@@ -71,11 +72,6 @@ float normalise(Array<Complex, 2>& field, double clip) {
     return 1 / scale;
 }
 
-float cycles_of(Complex value) {
-    const float cycles = std::arg(value) * static_cast<float>(0.5 / std::numbers::pi);
-    return cycles < 0 ? cycles + 1 : cycles;
-}
-
 Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band, const PatternOptions& options,
                              Convergence& convergence, const Progress& progress) {
     if (options.encoding == Encoding::gerchberg_saxton) {
@@ -85,14 +81,11 @@ Array<float, 2> encode_phase(View<const Complex, 2> field, const FieldBand& band
     if (options.encoding == Encoding::gradient) return descend_phases(field, band, options, convergence, progress);
     Array<float, 2> cycles(field.shape());
     work::parallel_for(field.extent(0), [&](std::size_t y) {
-        for (std::size_t x = 0; x < field.extent(1); ++x) {
-            cycles(y, x) = cycles_of(field(y, x));
-            if (options.encoding != Encoding::double_phase) continue;
-            const auto half_angle =
-                static_cast<float>(std::acos(std::min(1.0f, std::abs(field(y, x)))) * (0.5 / std::numbers::pi));
-            cycles(y, x) += (x + y) % 2 == 0 ? half_angle : -half_angle;
-            cycles(y, x) -= std::floor(cycles(y, x));
-        }
+        const std::span<float> row(&cycles(y, 0), field.extent(1));
+        if (options.encoding == Encoding::double_phase)
+            double_phases(&field(y, 0), y % 2 == 0 ? 1.0f : -1.0f, row);
+        else
+            phases_of(&field(y, 0), row);
     });
     return cycles;
 }

@@ -96,6 +96,8 @@ class FieldBand {
             energy += other.energy;
         }
     };
+    /// Returns whether the band has any frequency of column x.
+    bool has_column(std::size_t x) const { return active_columns_[x] != 0; }
     /// Adds frequency (x, y) of the spectrum, P = value.
     void add(std::size_t y, std::size_t x, std::complex<float> value, Sums& sums) const {
         if (active_[y * target_.extent(1) + x] == 0) return;
@@ -124,7 +126,8 @@ class FieldBand {
     math::Fft2 fft_;
     Array<std::complex<float>, 2> target_;  // the field's spectrum, 0 outside the band
     std::vector<std::uint8_t> active_;      // [y][x]: 1 in the band
-    double energy_ = 0;                     // Σ|F|² over all frequencies
+    std::vector<std::uint8_t> active_columns_;
+    double energy_ = 0;  // Σ|F|² over all frequencies
     Aperture aperture_;
 };
 
