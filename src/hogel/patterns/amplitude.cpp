@@ -7,8 +7,10 @@
 
 #include "hogel/error.h"
 #include "hogel/math/fft.h"
+#include "hogel/optics/phase_walk.h"
 #include "hogel/patterns/pattern_parts.h"
 #include "hogel/units.h"
+#include "hogel/work/parallel.h"
 
 namespace hogel::patterns {
 namespace {
@@ -62,15 +64,40 @@ double clearance_around(double frequency, double band, Encoding encoding) {
     return encoding == Encoding::intensity ? frequency - 2 * band : frequency;
 }
 
-// Returns component m of the `columns` non-negative real components of a complex number. Only the two adjacent to its
-// phase are nonzero. Components more than a right angle apart can exceed the modulus, so all are scaled down.
-float component(Complex value, std::size_t m, std::size_t columns) {
-    const double sector = 2 * std::numbers::pi / static_cast<double>(columns);
-    const double angle =
-        std::abs(std::remainder(std::arg(value) - sector * static_cast<double>(m), 2 * std::numbers::pi));
-    if (angle >= sector) return 0;
-    const double largest = columns < 4 ? 1 : std::sin(sector);
-    return static_cast<float>(std::abs(value) * std::sin(sector - angle) / largest);
+// Non-negative real components of complex numbers, `columns` of them, in successive columns. Component m of a number of
+// modulus |F| and phase φ is |F| sin(s − |φ − ms|), with sectors s = 2π/columns; only the two adjacent to its phase are
+// nonzero. Components more than a right angle apart can exceed the modulus, so all are scaled down.
+class Components {
+  public:
+    Components(std::size_t columns, std::size_t width) {
+        const double sector = 2 * std::numbers::pi / static_cast<double>(columns);
+        const double largest = columns < 4 ? 1 : std::sin(sector);
+        sine_ = static_cast<float>(std::sin(sector) / largest);
+        cosine_ = static_cast<float>(std::cos(sector) / largest);
+        for (std::size_t x = 0; x < width; ++x)
+            turns_.push_back(Complex(std::polar(1.0, -sector * static_cast<double>(x % columns))));
+    }
+
+    // Returns the component of column x. With G = F e^{−ims}, it is sin(s) Re G − cos(s) |Im G|, or 0 if that is less.
+    float operator()(Complex value, std::size_t x) const {
+        const Complex turned = optics::times(value, turns_[x]);
+        return sine_ * turned.real() - cosine_ * std::abs(turned.imag());
+    }
+
+  private:
+    float sine_ = 0, cosine_ = 0;
+    Carrier turns_;  // e^{−ims} by column
+};
+
+// Returns amplitude(F, x) of all pixels, clamped to [0, 1].
+template <class Amplitude>
+Array<float, 2> amplitudes(View<const Complex, 2> field, const Amplitude& amplitude) {
+    Array<float, 2> values(field.shape());
+    work::parallel_for(field.extent(0), [&](std::size_t y) {
+        for (std::size_t x = 0; x < field.extent(1); ++x)
+            values(y, x) = std::clamp(amplitude(field(y, x), x), 0.0f, 1.0f);
+    });
+    return values;
 }
 
 }  // namespace
@@ -110,22 +137,13 @@ Array<float, 2> encode_amplitude(View<const Complex, 2> field, const PatternOpti
         order.carrier.push_back(
             Complex(std::polar(1.0, -2 * std::numbers::pi * std::fmod(order.frequency * static_cast<double>(x), 1.0))));
 
-    Array<float, 2> values(field.shape());
-    for (std::size_t y = 0; y < field.extent(0); ++y)
-        for (std::size_t x = 0; x < field.extent(1); ++x) {
-            const Complex value = field(y, x), fringe = value * order.carrier[x];
-            float& out = values(y, x);
-            if (columns > 0)
-                out = component(value, x % columns, columns);
-            else if (options.encoding == Encoding::intensity)
-                out = std::norm(Complex(1) + fringe) / 4;
-            else if (options.encoding == Encoding::bipolar)
-                out = 0.5f * (1 + fringe.real());
-            else
-                out = fringe.real() > 0 ? 1.0f : 0.0f;
-            out = std::clamp(out, 0.0f, 1.0f);
-        }
-    return values;
+    if (columns > 0) return amplitudes(field, Components(columns, field.extent(1)));
+    const auto fringe = [&](Complex value, std::size_t x) { return optics::times(value, order.carrier[x]); };
+    if (options.encoding == Encoding::intensity)
+        return amplitudes(field, [&](Complex value, std::size_t x) { return std::norm(1.0f + fringe(value, x)) / 4; });
+    if (options.encoding == Encoding::bipolar)
+        return amplitudes(field, [&](Complex value, std::size_t x) { return 0.5f * (1 + fringe(value, x).real()); });
+    return amplitudes(field, [&](Complex value, std::size_t x) { return fringe(value, x).real() > 0 ? 1.0f : 0.0f; });
 }
 
 }  // namespace hogel::patterns
