@@ -172,7 +172,7 @@ std::vector<Image> photographs_of_light_field(Options& options, const Session& s
     WaveCameraParameters& waves = options.photo.waves;
     const HologramRequest request =
         options.hologram.request(light_field.grids(), session.seed, waves.number_of_looks());
-    session.say(options.hologram.note_about_pitch(request));
+    session.say(options.hologram.note_about_pitch(request, light_field.grid()));
     check_holograms(light_field.grids(), request, kind == InputKind::scene, cameras);
     if (waves.camera != "full") {
         const std::string reason = waves.resolve(light_field.grids(), request, cameras);

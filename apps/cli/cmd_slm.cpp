@@ -197,17 +197,13 @@ ResultList report_patterns(const Encoded& made, const Modulator& modulator, cons
     return patterns;
 }
 
-// Names a command that shows what an observer sees behind the aperture of a pattern made from a scene or light field.
-void suggest_a_look(const Options& options, const Pattern& pattern, const Session& session) {
+// Names a command that photographs a pattern made from a scene or light field on a bench. Its file names the aperture.
+void suggest_a_photograph(const Options& options, const Session& session) {
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (extension != ".png" && extension != ".tif") return;
-    const Aperture& aperture = pattern.aperture;
-    const std::string order =
-        aperture.x == 0 && aperture.y == 0 ? "0" : fmt::format("{:.4f},{:.4f}", aperture.x, 0.0 - aperture.y);
-    session.say(
-        fmt::format("what it shows behind its aperture: hogel propagate {} -o look.png --distance {} "
-                    "--order={} --aperture {:.4f}",
-                    options.output, lengths_text({options.pattern.distance}), order, aperture.radius));
+    const double distance = options.pattern.distance;
+    session.say(fmt::format("what it shows behind its aperture: hogel photo {} -o look.png --focal 200mm{}",
+                            options.output, distance == 0 ? "" : " --focus=" + lengths_text({-distance})));
 }
 
 // Writes the patterns, one file for each that is shown in turn.
@@ -254,7 +250,7 @@ int slm(Options& options, const Session& session) {
     session.say(fmt::format("{}: {}{}x{} pixels of {}", options.output,
                             frames == 1 ? "" : fmt::format("{} patterns of ", frames), modulator.width,
                             modulator.height, format_length(modulator.pitch)));
-    if (kind != InputKind::hologram && frames == 1) suggest_a_look(options, encoded.patterns[0], session);
+    if (kind != InputKind::hologram && frames == 1) suggest_a_photograph(options, session);
     report_file(session, options.output,
                 {{"width", modulator.width},
                  {"height", modulator.height},
