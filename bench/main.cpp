@@ -10,6 +10,7 @@
 #include <new>
 
 #include "bench/codec/codec.h"
+#include "bench/patterns/patterns.h"
 #include "bench/peers/coders.h"
 #include "bench/peers/renderers.h"
 #include "bench/render/render.h"
@@ -294,6 +295,18 @@ void add_thesis(CLI::App& app, Program& program) {
     add_count(command, "--crop", options->crop, "Side of the pictures, directions");
 }
 
+void add_patterns(CLI::App& app, Program& program) {
+    const auto options = std::make_shared<PatternBenchOptions>();
+    CLI::App* command = add_command<PatternBenchOptions>(
+        app, program, "patterns", "Time and quality of the encodings of patterns for modulators", options,
+        [&program](const PatternBenchOptions& chosen) { measure_patterns(chosen, program.session); });
+    add_session_options(command, program.session);
+    command->add_option("--scene", options->scene, "Scene or mesh file")->type_name("SCENE")->capture_default_str();
+    command->add_option("--device", options->device, "Modulator")->type_name("NAME")->capture_default_str();
+    add_names(command, "--encodings", options->encodings, "Encodings; all but supervised if none are named");
+    add_count(command, "--rounds", options->rounds, "Rounds; the median counts");
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -315,6 +328,7 @@ int run(int argc, char** argv) {
     add_render(app, program);
     add_codec(app, program);
     add_thesis(app, program);
+    add_patterns(app, program);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -170,8 +170,7 @@ void keep_those_of_all_views(std::size_t views, std::size_t columns, KnownMaps& 
         if (static_cast<std::size_t>(std::ranges::count_if(used, is_like)) != views) continue;
         KnownMaps kept;
         for (std::size_t i = 0; i < used.size(); ++i)
-            if (is_like(used[i]))
-                kept.push_back({{kept.size() / columns, kept.size() % columns}, std::move(known[i].second)});
+            if (is_like(used[i])) kept.push_back({{kept.size() / columns, kept.size() % columns}, known[i].second});
         known = std::move(kept);
         std::erase_if(used, [&](const fs::path& path) { return !is_like(path); });
         return;
@@ -244,7 +243,7 @@ std::shared_ptr<const Disparities> find_disparities(const fs::path& source, cons
         of_depth = candidate.depth;
         of_codes = candidate.coded;
         used.push_back(candidate.path);
-        known.push_back({{(known.size() / set.columns), known.size() % set.columns}, std::move(map)});
+        known.push_back({{(known.size() / set.columns), known.size() % set.columns}, map});
         if (known.size() > 2 * views) break;
     }
     if (known.empty()) return nullptr;
