@@ -2,6 +2,7 @@
 #include "hogel/pipeline/picture_jobs.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -55,7 +56,8 @@ TEST_F(PictureJobsTest, are_all_colours_in_order_where_pictures_are_neither_shar
 }
 
 TEST_F(PictureJobsTest, are_those_of_four_eyes_where_pictures_without_speckle_are_kept) {
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "picture_jobs.part";
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / ("picture_jobs_" + std::to_string(::getpid()));
     ResumeScope kept(file, {});
     const std::vector<PictureJob> all = jobs({looks, expected});
     ASSERT_EQ(all.size(), 3u + 6u);
@@ -75,7 +77,8 @@ TEST_F(PictureJobsTest, are_none_of_cameras_that_need_samples) {
 TEST_F(PictureJobsTest, do_not_change_pictures) {
     const std::vector<CameraModel> ways{looks, expected};
     const auto all = photograph_colours(holograms_, cameras_, ways);
-    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "picture_jobs.part";
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / ("picture_jobs_" + std::to_string(::getpid()));
     ResumeScope kept(file, {});
     const auto by_jobs = photograph_colours(holograms_, cameras_, ways);
     kept.complete();

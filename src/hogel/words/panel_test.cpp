@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patterns for panels, written and read again.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +85,7 @@ class PanelPatterns : public testing::Test {
         return (folder_ / "table.csv").string();
     }
 
-    fs::path folder_ = fs::path(testing::TempDir()) / "panel_patterns";
+    fs::path folder_ = fs::path(testing::TempDir()) / ("hogel_panel_" + std::to_string(::getpid()));
     std::shared_ptr<const FieldSource> field_ = field_of_phases(8_um, wanted);
 };
 
