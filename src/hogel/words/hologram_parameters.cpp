@@ -144,16 +144,16 @@ LightField HologramParameters::fitted(const LightField& light_field, const Modul
     const double pixels = grid.pitch / modulator.pitch;
     const bool is_whole = std::abs(pixels - std::round(pixels)) < 1e-3 && std::round(pixels) >= 1 &&
                           std::round(pixels) <= static_cast<double>(most);
-    const double pitch = is_whole ? grid.pitch : static_cast<double>(most) * modulator.pitch;
+    const double new_pitch = is_whole ? grid.pitch : static_cast<double>(most) * modulator.pitch;
     const LightFieldGrid common = common_directions(grid);
     const double reach =
         std::max(std::abs(common.center_u()) + common.half_u(), std::abs(common.center_v()) + common.half_v());
     const double sine = grid.has_frequencies() ? reach : reach / std::hypot(1.0, reach);
     if (sine <= largest_sine(modulator, wavelengths, false) * (1 + 1e-6))
-        return is_whole ? light_field : with_scale(light_field, pitch, 1);
+        return is_whole ? light_field : with_scale(light_field, new_pitch, 1);
     const double wanted = largest_sine(modulator, wavelengths, smooth);
     const double own = std::max(std::abs(grid.center_u()) + grid.half_u(), std::abs(grid.center_v()) + grid.half_v());
-    return with_scale(light_field, pitch,
+    return with_scale(light_field, new_pitch,
                       (grid.has_frequencies() ? wanted : wanted / std::sqrt(1 - wanted * wanted)) / own);
 }
 

@@ -50,7 +50,8 @@ ViewSet open(const fs::path& source, const ViewImportOptions& options) {
         set.notes.emplace_back(set.geometry.orthographic
                                    ? "numbered views were taken for orthographic ones"
                                    : "numbered views were taken for those of cameras, by their names");
-    return mirrored(std::move(set), set.geometry.orthographic, set.geometry.orthographic);
+    const bool by_direction = set.geometry.orthographic;
+    return mirrored(std::move(set), by_direction, by_direction);
 }
 
 std::unique_ptr<ViewWriter> create(const ViewTarget& target) {
