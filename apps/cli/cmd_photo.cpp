@@ -50,14 +50,19 @@ std::vector<Image> photograph_fields(Stage& stage, const Fields& fields, std::sp
     return pictures;
 }
 
+// Throws Error(bad_input) for a number of wavelengths that a photograph does not take.
+void require_colours(const Options& options, const Fields& fields) {
+    if (fields.size() != 1 && fields.size() != 3)
+        throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
+                                                      options.input, fields.size()));
+}
+
 std::vector<Image> photographs_of_hologram(Options& options, const Session& session) {
     options.field.pitch = options.hologram.pitch;
     options.field.wavelengths = options.hologram.wavelengths;
     const Fields fields = open_and_reconstruct(session, options.input, options.field);
     options.hologram.resolve(options.field);
-    if (fields.size() != 1 && fields.size() != 3)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
-                                                      options.input, fields.size()));
+    require_colours(options, fields);
     const Grid& plane = fields.front()->grid().plane;
     const std::vector<Camera> cameras = options.photo.view.cameras(plane.size_x(), plane.size_y());
     if (options.photo.waves.camera == "auto") options.photo.waves.camera = "narrow";
@@ -124,9 +129,7 @@ std::vector<Image> photographs_on_bench(Options& options, const Session& session
     for (const std::string& note : opened.notes) session.say(note);
     options.hologram.resolve(options.field);
     const Fields& patterns = opened.fields;
-    if (patterns.size() != 1 && patterns.size() != 3)
-        throw Error(ErrorCode::bad_input, fmt::format("{}: has {} wavelengths; a photograph takes one or three",
-                                                      options.input, patterns.size()));
+    require_colours(options, patterns);
     if (patterns.size() > 1 && parse_light_source(bench.source).kind == LightSource::Kind::led)
         throw Error(ErrorCode::usage, "source",
                     fmt::format("a led has one mean wavelength, but {} has three", options.input));

@@ -45,7 +45,7 @@ struct BenchPhotograph {
     /// One channel with the pixels of the modulator, each the mean intensity over its area. A mirror in place of the
     /// modulator has the intensity 1.
     Image picture;
-    /// Speckle contrast on the film: σ/mean of the intensity in windows of 32x32 film samples, of which the median over
+    /// Speckle contrast on the film: the median of σ/mean of the intensity in windows of 32x32 film samples, over the
     /// windows with at least half the mean of the brightest; 0 without a window. Film samples are about λf/4R apart.
     double contrast = 0;
     double efficiency = 0;                    ///< share of the light on the modulator that passes the aperture

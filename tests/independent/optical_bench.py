@@ -4,7 +4,7 @@
 
 usage: optical_bench.py HOGEL      exit status 77: numpy is missing
 
-docs/modulators.md, "The bench": a pixel is 5x5 sub-pixels, of which the 3x3 in the middle modulate and the others are a mirror.
+docs/modulators.md, "The bench": a pixel is 5x5 sub-pixels; the 3x3 in the middle modulate, and the others are a mirror.
 The panel is in a dark plane eight times as wide. Each tilted plane wave is filtered by the aperture, propagated by the angular
 spectrum to the plane in focus, and squared; the mean over a pixel is that of its band-limited intensity.
 """

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/exchange/disparity.h"
-#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/raw_file.h"
 #include "hogel/error.h"
 #include "hogel/image/picture_bytes.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/exchange/file_names.h"
-#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <map>
 #include <system_error>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/error.h"
 #include "hogel/image/picture_formats.h"
 

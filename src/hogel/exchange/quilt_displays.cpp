@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Profiles of displays for quilts in JSON (docs/modulators.md).
 #include <fmt/format.h>
-#include <strings.h>
 
 #include <algorithm>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "hogel/core/device_names.h"
 #include "hogel/core/profiles.h"
 #include "hogel/error.h"
 #include "hogel/exchange.h"
@@ -66,23 +66,12 @@ Table<QuiltDisplay>& quilt_displays() {
     return table;
 }
 
-std::vector<std::string> quilt_display_names() {
-    std::vector<std::string> names;
-    for (const QuiltDisplay& row : quilt_displays().rows()) {
-        names.push_back(row.name);
-        names.insert(names.end(), row.aliases.begin(), row.aliases.end());
-    }
-    return names;
-}
+std::vector<std::string> quilt_display_names() { return core::device_names(quilt_displays().rows()); }
 
 QuiltDisplay find_quilt_display(const std::string& name) {
     const std::vector<QuiltDisplay> rows = quilt_displays().rows();
-    const auto is_asked = [&](const std::string& word) { return strcasecmp(word.c_str(), name.c_str()) == 0; };
-    auto found = std::ranges::find_if(rows, is_asked, &QuiltDisplay::name);
-    if (found == rows.end())
-        found = std::ranges::find_if(
-            rows, [&](const QuiltDisplay& row) { return std::ranges::any_of(row.aliases, is_asked); });
-    if (found == rows.end()) {
+    const QuiltDisplay* const found = core::find_device(rows, name);
+    if (found == nullptr) {
         core::require_kind(name, "quilt", quilt_display_names());
         throw_unknown("display for quilts", name, quilt_display_names(), "device");
     }

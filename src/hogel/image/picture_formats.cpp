@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/image/picture_formats.h"
-#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/part.h"
 #include "hogel/error.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/files.h"
-#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +13,7 @@
 #include <system_error>
 
 #include "hogel/compress.h"
+#include "hogel/core/lower_case.h"
 #include "hogel/core/part.h"
 #include "hogel/error.h"
 #include "hogel/image/picture_formats.h"

@@ -190,7 +190,7 @@ Complex with_scaled_phase(Complex value, double factor) {
 // A panel with a dark border at its right and lower side, and its film.
 class BenchFilm {
   public:
-    BenchFilm(const FieldSource& pattern, const Bench& bench, double largest_radius)
+    BenchFilm(const FieldSource& pattern, const Bench& bench, double max_radius)
         : bench_(bench),
           samples_(Shape<2>{pattern.grid().plane.height, pattern.grid().plane.width}),
           pitch_(pattern.grid().plane.pitch_x),
@@ -199,7 +199,7 @@ class BenchFilm {
                   padded_side(height(), pitch_, bench, pattern.grid().wavelength), pitch_},
           fft_(padded_.height, padded_.width),
           spectrum_(Shape<2>{padded_.height, padded_.width}),
-          film_(padded_, largest_radius),
+          film_(padded_, max_radius),
           field_(film_.shape()),
           intensity_(film_.shape()) {
         pattern.read({0, 0, width(), height()}, 0, samples_);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <strings.h>
 
-#include <algorithm>
-
+#include "hogel/core/device_names.h"
 #include "hogel/error.h"
 #include "hogel/pattern.h"
 #include "hogel/patterns/device_profiles.h"
@@ -21,25 +19,16 @@ Modulator find_modulator(const std::string& name) {
     if (rows.empty())
         throw Error(ErrorCode::not_built_in, "device",
                     "builds with HOGEL_MINIMAL=ON have no device profiles; describe the modulator by its pixels");
-    const auto is_asked = [&](const std::string& word) { return strcasecmp(word.c_str(), name.c_str()) == 0; };
-    auto found = std::ranges::find_if(rows, is_asked, &Modulator::name);
-    if (found == rows.end())
-        found = std::ranges::find_if(rows,
-                                     [&](const Modulator& row) { return std::ranges::any_of(row.aliases, is_asked); });
-    if (found == rows.end()) patterns::require_modulator(name, modulator_names());
-    if (found == rows.end()) throw_unknown("modulator", name, modulator_names(), "device");
+    const Modulator* const found = core::find_device(rows, name);
+    if (found == nullptr) {
+        patterns::require_modulator(name, modulator_names());
+        throw_unknown("modulator", name, modulator_names(), "device");
+    }
     if (!found->fault.empty()) throw Error(ErrorCode::bad_input, "device", found->fault);
     return *found;
 }
 
-std::vector<std::string> modulator_names() {
-    std::vector<std::string> names;
-    for (const Modulator& row : modulators().rows()) {
-        names.push_back(row.name);
-        names.insert(names.end(), row.aliases.begin(), row.aliases.end());
-    }
-    return names;
-}
+std::vector<std::string> modulator_names() { return core::device_names(modulators().rows()); }
 
 std::vector<std::string> notes_about(const Modulator& modulator, std::span<const double> wavelengths) {
     std::vector<std::string> notes;

@@ -63,8 +63,8 @@ void DoublePhases(const std::complex<float>* field, float first_sign, std::span<
     if (x < cycles.size()) double_phases_plain(field + x, first_sign, cycles.subspan(x));
 }
 
-// With r = φ − qπ/2, |r| ≤ π/4, from the polynomials of Cephes' sinf and cosf. π/2 has three parts, of which the first
-// two times q are exact.
+// With r = φ − qπ/2, |r| ≤ π/4, from the polynomials of Cephes' sinf and cosf. π/2 has three parts; q times the
+// first two is exact.
 void Phasors(const float* phases, std::span<std::complex<float>> out) {
     std::size_t x = 0;
 #if HWY_TARGET != HWY_SCALAR

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/scene/find_in_folder.h"
-#include "hogel/core/lower_case.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+
+#include "hogel/core/lower_case.h"
 
 namespace hogel::scene {
 namespace {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/scene/pictures.h"
-#include "hogel/core/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 #include <limits>
 #include <string_view>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/core/stop_scope.h"
 #include "hogel/error.h"
 #include "hogel/image/channels.h"

@@ -131,7 +131,7 @@ struct Adjust {
 double share_of_band(bool smooth) { return smooth ? 1.0 / 4 : 7.0 / 8; }
 
 // Returns the largest sine of an angle from the axis that this part of a modulator's band diffracts to.
-double largest_sine(const Modulator& modulator, std::span<const double> wavelengths, bool smooth) {
+double max_sine(const Modulator& modulator, std::span<const double> wavelengths, bool smooth) {
     return std::min(1.0, share_of_band(smooth) * *std::ranges::min_element(wavelengths) / (2 * modulator.pitch));
 }
 
@@ -149,9 +149,9 @@ LightField HologramParameters::fitted(const LightField& light_field, const Modul
     const double reach =
         std::max(std::abs(common.center_u()) + common.half_u(), std::abs(common.center_v()) + common.half_v());
     const double sine = grid.has_frequencies() ? reach : reach / std::hypot(1.0, reach);
-    if (sine <= largest_sine(modulator, wavelengths, false) * (1 + 1e-6))
+    if (sine <= max_sine(modulator, wavelengths, false) * (1 + 1e-6))
         return is_whole ? light_field : with_scale(light_field, new_pitch, 1);
-    const double wanted = largest_sine(modulator, wavelengths, smooth);
+    const double wanted = max_sine(modulator, wavelengths, smooth);
     const double own = std::max(std::abs(grid.center_u()) + grid.half_u(), std::abs(grid.center_v()) + grid.half_v());
     return with_scale(light_field, new_pitch,
                       (grid.has_frequencies() ? wanted : wanted / std::sqrt(1 - wanted * wanted)) / own);
@@ -168,7 +168,7 @@ void HologramParameters::fit(const Modulator& modulator, LightFieldParameters& l
     if (!light_field.size_given) light_field.size = static_cast<double>(hogels.columns * pixels) * modulator.pitch;
     if (!light_field.directions_given) light_field.directions = {directions, directions};
     if (light_field.field_of_view_given) return;
-    const double angle = 2 * std::asin(largest_sine(modulator, wavelengths, smooth));
+    const double angle = 2 * std::asin(max_sine(modulator, wavelengths, smooth));
     light_field.field_of_view = {angle, angle};
 }
 

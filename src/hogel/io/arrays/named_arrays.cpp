@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hogel/io/arrays/named_arrays.h"
-#include "hogel/core/lower_case.h"
 #include "hogel/core/stop_scope.h"
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include <map>
 #include <string_view>
 
+#include "hogel/core/lower_case.h"
 #include "hogel/error.h"
 
 namespace hogel::io::arrays {
